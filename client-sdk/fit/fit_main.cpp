@@ -72,6 +72,10 @@ void add_options(CLI::App& app, Arguments& a) {
                  "the same as a share of the diagonal; the smaller of both counts")
       ->check(CLI::Range(1e-6, 0.1))
       ->capture_default_str();
+  app.add_option_function<std::string>(
+         "--map", [&config](const std::string& map) { config.fields = map == "field"; },
+         "auto: radial maps and bricks; field: one field for each mesh, which is not cut then")
+      ->check(CLI::IsMember({"auto", "field"}));
   app.add_option("--resolution", config.map_resolution,
                  "texels along an edge of a part's radial map; 0: the smallest map that is accurate enough")
       ->check(CLI::IsMember({0, 8, 12, 16, 24, 32, 48, 64}))

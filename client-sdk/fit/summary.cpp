@@ -252,6 +252,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject&
           {"error allowed (--error-share)", fmt::format("{:g} % of the diagonal", 100 * config.max_error_share)},
           {"hollowness of a part (--concavity)", fmt::format("{:g} % of the diagonal", 100 * config.max_concavity)},
           {"parts of a mesh at most (--max-parts)", fmt::format("{}", config.max_pieces)},
+          {"kind of map (--map)", config.fields ? "field" : "auto"},
           {"map resolution (--resolution)", resolution},
           {"sample spacing (--spacing)", fmt::format("{} mm", mm_text(1000 * config.sample_spacing_m))},
           {"samples a piece at most (--max-samples)", fmt::format("{}", config.max_samples_per_part)},

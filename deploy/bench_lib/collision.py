@@ -29,7 +29,8 @@ AIMS = {
 NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 brick, scalar", "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
          "embree": "Embree, exact", "paper": "the paper's search", "paper_along": "the same, depth along the normal", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no",
          "fcl_gjk": "FCL GJK, convex parts", "sqmap_avx512": "Mechane, AVX-512", "sqmap_avx2": "Mechane, AVX2",
-         "sqmap_portable": "Mechane, no vectors", "sqmap_nobrick": "Mechane, no bricks", "sqmap_boxes": "Mechane, boxes"}
+         "sqmap_portable": "Mechane, no vectors", "sqmap_nobrick": "Mechane, no bricks", "sqmap_boxes": "Mechane, boxes",
+         "field": "Mechane, fields", "field_avx2": "Mechane, fields, AVX2", "field_portable": "Mechane, fields, no vectors"}
 # What thread, staves and valves ask of maps; all models would take most of an hour (build/release/bin/bench_models measures any file).
 SHIPPED = ("archimedes-screw", "ktesibios-pump")
 # Of the meshes beside the repository: those that are open, judged against brute force.
@@ -43,7 +44,7 @@ BIN_STEPS = 10  # of the grasp's curve: the mean of so many steps is one point
 def _methods(metrics: dict[str, float]) -> list[str]:
     """Everything that was timed, ours first, mesh methods last."""
     found = [name.split(".")[1] for name in metrics if name.startswith("step_us.") and name.endswith(".count")]
-    return sorted(found, key=lambda name: (name in MESH_METHODS, not name.startswith(OURS), metrics[f"step_us.{name}.median"]))
+    return sorted(found, key=lambda name: (name in MESH_METHODS, not name.startswith((OURS, "field")), metrics[f"step_us.{name}.median"]))
 
 
 def _objects(metrics: dict[str, float]) -> list[str]:

@@ -289,13 +289,17 @@ BrickView DistanceBrick::view() const noexcept {
           1 / grid_.block_m, step_m_,        slack_m_};
 }
 
-BoxView DistanceBrick::box() const noexcept {
+BoxView DistanceBrick::Grid::box() const noexcept {
   BoxView box;
   for (std::size_t i = 0; i < 3; ++i) {
-    box.half[i] = 0.5F * grid_.block_m * static_cast<float>(grid_.blocks[i]);
-    box.center[i] = grid_.origin_Q[static_cast<Eigen::Index>(i)] + box.half[i];
+    box.half[i] = 0.5F * block_m * static_cast<float>(blocks[i]);
+    box.center[i] = origin_Q[static_cast<Eigen::Index>(i)] + box.half[i];
   }
   return box;
+}
+
+BoxView DistanceBrick::box() const noexcept {
+  return grid_.box();
 }
 
 MapHit DistanceBrick::evaluate(const Vec3f& p_QP) const noexcept {

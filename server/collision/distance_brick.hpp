@@ -36,6 +36,7 @@ class DistanceBrick {
     float block_m = 0;               ///< edge of a block
 
     [[nodiscard]] std::size_t block_count() const;
+    [[nodiscard]] BoxView box() const noexcept;
   };
 
   /// Where a block's values lie, as kernels read it.

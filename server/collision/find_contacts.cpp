@@ -37,6 +37,10 @@ class Direction {
       : source_(source), X_TS_(X_TS), target_(target), sink_(std::move(sink)) {}
 
   void run() noexcept {
+    if (target_.parts.size() == 1 && target_.parts.front().map.field() != nullptr) {
+      run_field();
+      return;
+    }
     const auto report = [this](const InsidePoint& inside) { sink_(inside, source_.clusters[inside.cluster].part); };
     for (std::size_t next = 0; next < target_.parts.size();) {
       const std::size_t count = collect(next);
@@ -44,14 +48,9 @@ class Direction {
       const Vec3 target_center_S = X_TS_.inverse() * target_.bound_O.center;
       ClusterQuery query(*this, std::span<const PlacedPart>(near_).first(count), best_kernels(), report);
       const std::uint64_t all = count == kPartBatch ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-      for (std::size_t s = 0; s < source_.parts.size(); ++s) {
-        if (!is_near(source_.parts[s], target_center_S)) continue;
-        for (std::uint32_t g = source_.first_group[s]; g < source_.first_group[s + 1]; ++g) {
-          const ClusterGroup& group = source_.groups[g];
-          if (!overlap(group.bound_O, target_center_S, target_.bound_O.radius)) continue;
-          query.test_group(group.bounds_O.view(), group.count, group.first_cluster, all);
-        }
-      }
+      for_each_near_group(target_center_S, [&](const ClusterGroup& group) {
+        query.test_group(group.bounds_O.view(), group.count, group.first_cluster, all);
+      });
       query.finish();
     }
   }
@@ -63,6 +62,60 @@ class Direction {
   [[nodiscard]] std::size_t count(std::uint32_t cluster) const noexcept { return source_.clusters[cluster].count; }
 
  private:
+  template <class Body>
+  void for_each_near_group(const Vec3& target_center_S, const Body& body) const noexcept {
+    for (std::size_t s = 0; s < source_.parts.size(); ++s) {
+      if (!is_near(source_.parts[s], target_center_S)) continue;
+      for (std::uint32_t g = source_.first_group[s]; g < source_.first_group[s + 1]; ++g) {
+        const ClusterGroup& group = source_.groups[g];
+        if (overlap(group.bound_O, target_center_S, target_.bound_O.radius)) body(group);
+      }
+    }
+  }
+
+  /// Where the target is one field: its kernels go from clusters to hits by themselves.
+  void run_field() noexcept {
+    std::size_t next = 0;
+    if (collect(next) == 0) return;
+    const PlacedPart& part = near_.front();
+    const Kernels& kernels = best_kernels();
+    std::array<std::uint32_t, kFieldBatch + kLanes> clusters;
+    std::size_t count = 0;
+    for_each_near_group(X_TS_.inverse() * target_.bound_O.center, [&](const ClusterGroup& group) {
+      for (LaneMask near = part.near(kernels, group.bounds_O.view(), group.count); near != 0; near &= near - 1) {
+        clusters[count++] = group.first_cluster + static_cast<std::uint32_t>(std::countr_zero(near));
+        if (count < kFieldBatch) continue;
+        give_hits(part, kernels, clusters.data(), count);
+        count = 0;
+      }
+    });
+    if (count > 0) give_hits(part, kernels, clusters.data(), count);
+  }
+
+  void give_hits(const PlacedPart& part, const Kernels& kernels, std::uint32_t* clusters,
+                 std::size_t cluster_count) noexcept {
+    static constexpr std::array<float, 9> kStraight = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    constexpr std::size_t kRoom = kLanes * kFieldBatch;
+    std::array<std::uint32_t, kRoom + kLanes> point;
+    std::array<float, kRoom + kLanes> depth_m;
+    std::array<float, kRoom + kLanes> x;
+    std::array<float, kRoom + kLanes> y;
+    std::array<float, kRoom + kLanes> z;
+    const HitRuns out{point.data(), depth_m.data(), x.data(), y.data(), z.data(), kRoom};
+    const std::size_t count =
+        kernels.field_hits(part.field, part.X_BS, kStraight, runs_of(source_), clusters, cluster_count, out);
+    const Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> R_QS(part.X_QS.R_BA.data());
+    const Eigen::Map<const Vec3f> p_QS(part.X_QS.p_BA.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t cluster = point[i] / kLanes;
+      const std::uint32_t lane = point[i] % kLanes;
+      const Cluster& samples = source_.clusters[cluster];
+      if (lane >= samples.count) continue;  // it repeats another
+      const Vec3f p_Q = R_QS * samples.sample_O(lane) + p_QS;
+      sink_(InsidePoint{cluster, lane, &part, p_Q, {x[i], y[i], z[i]}, depth_m[i]}, samples.part);
+    }
+  }
+
   /// Fills `near_` with the parts of the target, from `next` on, that the source's sphere reaches.
   std::size_t collect(std::size_t& next) noexcept {
     std::size_t count = 0;
@@ -143,6 +196,15 @@ void ContactBuffer::add(const PointContact& contact) noexcept {
     storage_.back() = contact;
     std::push_heap(storage_.begin(), storage_.end(), deeper);
   }
+}
+
+PointRuns runs_of(const Object& object) noexcept {
+  const Cluster& first = object.clusters.front();
+  constexpr std::size_t kStride = sizeof(Cluster) / sizeof(float);
+  static_assert(sizeof(Cluster) % sizeof(float) == 0);
+  return {first.samples_O.x.data(), first.samples_O.y.data(),
+          first.samples_O.z.data(), kStride,
+          first.quads_O.view(),     kStride};
 }
 
 void find_contacts(const Object& a, const Pose& X_WA, const Object& b, const Pose& X_WB, ContactBuffer& out) noexcept {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "server/collision/brick_kernels.hpp"
+#include "server/collision/field_kernels.hpp"
 #include "server/collision/radial_kernels.hpp"
 
 namespace mechane::collision {
@@ -14,13 +15,19 @@ struct KernelBody {
   static constexpr Kernels table(const char* name) {
     using Radial = RadialKernels<Lanes>;
     using Brick = BrickKernels<Lanes>;
+    using Field = FieldKernels<Lanes>;
     return {name,
             &Radial::radial_near,
             &Brick::brick_near,
             &Radial::radial_inside,
             &Brick::brick_inside,
             &Radial::radial_depth,
-            &Brick::brick_depth};
+            &Brick::brick_depth,
+            &Field::field_near,
+            &Field::field_inside,
+            &Field::field_depth,
+            &Field::field_sift,
+            &Field::field_hits};
   }
 };
 

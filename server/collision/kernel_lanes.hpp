@@ -45,6 +45,20 @@ struct PortableLanes {
   static F select(I condition, F a, F b) {
     return reinterpret_cast<F>((condition & reinterpret_cast<I>(a)) | (~condition & reinterpret_cast<I>(b)));
   }
+  /// a b + c, rounded once: the same bits on every machine, and one instruction where there is one.
+  static F mad(F a, F b, F c) {
+    for (int i = 0; i < Width; ++i)
+      c[i] = __builtin_fmaf(a[i], b[i], c[i]);
+    return c;
+  }
+  /// The lanes whose bit is set, moved together to the front; what follows them may be anything.
+  template <class Vector>
+  static Vector pack(Vector from, LaneMask lanes) {
+    Vector out = from;
+    for (int i = 0; lanes != 0; lanes &= lanes - 1)
+      out[i++] = from[__builtin_ctz(lanes)];
+    return out;
+  }
   // Both give b where one of them is NaN, and where both are zeros.
   static F lesser(F a, F b) { return select(a < b, a, b); }
   static F greater(F a, F b) { return select(a > b, a, b); }
@@ -99,6 +113,26 @@ struct KernelMath {
   template <class Array>
   static void store(F value, Array& to, int at) {
     __builtin_memcpy(&to[static_cast<std::size_t>(at)], &value, sizeof value);
+  }
+  /// Four floats from each place that of_quad(k) points to, k from 0 to kWidth / 4.
+  template <class Pointer>
+  [[gnu::always_inline]] static F load_quads(const Pointer& of_quad) {
+    using Four = typename VectorsOf<4>::F;
+    const auto four = [&](int k) {
+      Four out;
+      __builtin_memcpy(&out, of_quad(k), sizeof out);
+      return out;
+    };
+    if constexpr (kWidth == 4) {
+      return four(0);
+    } else {
+      const auto eight = [&](int k) { return __builtin_shufflevector(four(k), four(k + 1), 0, 1, 2, 3, 4, 5, 6, 7); };
+      if constexpr (kWidth == 8) {
+        return eight(0);
+      } else {
+        return __builtin_shufflevector(eight(0), eight(2), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      }
+    }
   }
   static Point load_points(const PointsView& points, int at) {
     return {load(points.x, at), load(points.y, at), load(points.z, at)};

@@ -1,5 +1,6 @@
 // The inner loops of a contact query, 16 points at a time: one table of functions for each instruction set, chosen at run time. All
-// tables give the same bits: additions, products, quotients and roots in one order, nothing fused, nothing approximated.
+// tables give the same bits: additions, products, quotients and roots in one order, nothing approximated, and nothing fused but what is
+// written as fused.
 #pragma once
 
 #include <array>
@@ -72,6 +73,45 @@ struct BrickView {
   float slack_m;  ///< see DistanceBrick: for culling
 };
 
+inline constexpr int kFieldLevels = 4;               ///< how often a block of a DistanceField may be halved
+inline constexpr float kFieldValueStep = 1.0F / 64;  ///< of a bounding plane, in blocks
+inline constexpr float kFieldSlopeStep = 1.0F / 63;  ///< of its slopes
+inline constexpr std::size_t kFieldBatch = 64;       ///< clusters that field_hits takes at once
+inline constexpr std::uint32_t kFieldLanes[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+/// What a kernel reads of a DistanceField.
+struct FieldView {
+  const unsigned char* entries;   ///< of each block eight bytes: its plane, its word
+  const std::uint32_t* children;  ///< eight words for each block that is halved
+  const unsigned char* slots;     ///< of sixteen bytes
+  std::array<int, 3> blocks;
+  std::array<float, 3> origin;
+  float inverse_block;
+  float block_m;
+  float slack;  ///< see DistanceField; in blocks
+};
+
+/// Points in clusters of 16, those of a cluster side by side, and a sphere around each four of them. Strides are from cluster to cluster,
+/// in floats. Without spheres, `quads.x` is null.
+struct PointRuns {
+  const float* x;
+  const float* y;
+  const float* z;
+  std::size_t stride;
+  SpheresView quads;
+  std::size_t quad_stride;
+};
+
+/// Where hits go: a point's number is 16 cluster + lane. There are kLanes places more than `room`.
+struct HitRuns {
+  std::uint32_t* point;
+  float* depth_m;
+  float* n_x;
+  float* n_y;
+  float* n_z;
+  std::size_t room;
+};
+
 /// Points in a part's frame Q, and how central each lies in the part: what decides between parts that overlap.
 struct InsideBlock {
   PointBlock p_Q;
@@ -103,6 +143,21 @@ struct Kernels {
   /// Depth and normal of points that lie inside; lanes without their bit in `wanted` may be left as they are.
   void (*radial_depth)(const RadialView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept;
   void (*brick_depth)(const BrickView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept;
+
+  // Of a field. X_B: into units of blocks, from its lowest corner on; see PlacedPart.
+  LaneMask (*field_near)(const FieldView& map, const BlockTransform& X_B, const SpheresView& spheres,
+                         std::size_t count) noexcept;
+  LaneMask (*field_inside)(const FieldView& map, const BlockTransform& X, const PointsView& points,
+                           InsideBlock& out) noexcept;
+  void (*field_depth)(const FieldView& map, const PointBlock& p_Q, LaneMask wanted, DepthBlock& out) noexcept;
+  /// Which spheres may hold a point inside, of those that come in fours: four i begins at stride * i. Writes the spheres' numbers,
+  /// 4 i to 4 i + 3, and returns how many. Writes up to three more fours behind the last; `out` needs kLanes places more.
+  std::size_t (*field_sift)(const FieldView& map, const BlockTransform& X_B, const SpheresView& spheres,
+                            std::size_t stride, std::uint32_t* fours, std::size_t count, std::uint32_t* out) noexcept;
+  /// All points inside of at most kFieldBatch clusters, with three places behind them: depths, and normals turned by R_AQ. Returns how many were written.
+  std::size_t (*field_hits)(const FieldView& map, const BlockTransform& X_B, const std::array<float, 9>& R_AQ,
+                            const PointRuns& points, std::uint32_t* clusters, std::size_t count,
+                            const HitRuns& out) noexcept;
 };
 
 /// Whether this machine can run them.

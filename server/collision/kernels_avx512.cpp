@@ -18,6 +18,12 @@ struct Avx512Lanes : PortableLanes<16> {
   static F select(I condition, F a, F b) {
     return _mm512_mask_blend_ps(_mm512_movepi32_mask(reinterpret_cast<__m512i>(condition)), b, a);
   }
+  static F mad(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
+  template <class Vector>
+  static Vector pack(Vector from, LaneMask lanes) {
+    const auto set = static_cast<__mmask16>(lanes);
+    return reinterpret_cast<Vector>(_mm512_maskz_compress_epi32(set, reinterpret_cast<__m512i>(from)));
+  }
   static F lesser(F a, F b) { return _mm512_mask_min_ps(a, kEvery, a, b); }
   static F greater(F a, F b) { return _mm512_mask_max_ps(a, kEvery, a, b); }
   template <int Scale>

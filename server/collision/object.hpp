@@ -31,10 +31,17 @@ struct Part {
   geometry::Sphere bound_O;  ///< around the part's mesh
 };
 
+/// A sphere around each four points of a cluster.
+struct alignas(16) QuadSpheres {
+  std::array<float, kLanes / 4> x, y, z, radius;
+  [[nodiscard]] SpheresView view() const noexcept { return {x.data(), y.data(), z.data(), radius.data()}; }
+};
+
 /// Up to 16 surface samples with a common bounding sphere, all of one part.
 struct Cluster {
   geometry::Sphere bound_O;
   PointBlock samples_O{};          ///< the lanes beyond `count` repeat the first
+  QuadSpheres quads_O{};           ///< around each four of them
   std::uint32_t first_sample = 0;  ///< among all of the object's
   std::uint16_t count = 0;
   std::uint16_t part = 0;
@@ -87,6 +94,9 @@ class ContactBuffer {
   std::span<PointContact> storage_;
   std::size_t count_ = 0;
 };
+
+/// The samples of all clusters, as kernels read them. There must be at least one.
+[[nodiscard]] PointRuns runs_of(const Object& object) noexcept;
 
 /// All overlaps of A and B: A's samples in B's parts and B's samples in A's parts, after culling by spheres (objects, parts,
 /// clusters). Both directions report the same way: the point on B's surface, the normal from B into A. Allocates nothing, throws

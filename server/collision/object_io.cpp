@@ -27,6 +27,7 @@ constexpr double kMaxLength_m = 10'000;
 constexpr std::uint8_t kNothing = 0;
 constexpr std::uint8_t kRadial = 1;
 constexpr std::uint8_t kBrick = 2;
+constexpr std::uint8_t kField = 3;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
@@ -136,8 +137,18 @@ class Reader {
   bool ok_ = true;
 };
 
+void put_grid(Writer& w, const DistanceBrick::Grid& grid) {
+  for (const int n : grid.blocks)
+    w.put(static_cast<std::uint16_t>(n));
+  w.put_vector(grid.origin_Q);
+  w.put(grid.block_m);
+}
+
 void put_map(Writer& w, const PartMap& map) {
-  w.put(map.radial() != nullptr ? kRadial : map.brick() != nullptr ? kBrick : kNothing);
+  w.put(map.radial() != nullptr  ? kRadial
+        : map.brick() != nullptr ? kBrick
+        : map.field() != nullptr ? kField
+                                 : kNothing);
   if (const RadialMap* radial = map.radial()) {
     w.put(static_cast<std::uint32_t>(radial->resolution()));
     w.put_vector(radial->center_Q());
@@ -145,15 +156,22 @@ void put_map(Writer& w, const PartMap& map) {
     w.put(radial->sigma_step());
     w.put_all(radial->texels());
   } else if (const DistanceBrick* brick = map.brick()) {
-    for (const int n : brick->grid().blocks)
-      w.put(static_cast<std::uint16_t>(n));
-    w.put_vector(brick->grid().origin_Q);
-    w.put(brick->grid().block_m);
+    put_grid(w, brick->grid());
     w.put(brick->step_m());
     w.put(brick->slack_m());
     w.put(static_cast<std::uint32_t>(brick->values().size()));
     w.put_all(brick->index());
     w.put_all(brick->values());
+  } else if (const DistanceField* field = map.field()) {
+    const DistanceField::Data& data = field->data();
+    put_grid(w, data.grid);
+    w.put(data.slack_m);
+    w.put(static_cast<std::uint32_t>(data.children.size()));
+    w.put(static_cast<std::uint32_t>(data.slots.size()));
+    w.put_all(std::span(data.entries));
+    w.put_all(std::span(data.children));
+    for (const DistanceField::Slot& slot : data.slots)
+      w.put_all(std::span<const std::uint8_t>(slot));
   }
 }
 
@@ -183,12 +201,17 @@ PartMap get_radial(Reader& r) {
   return RadialMap(static_cast<int>(resolution), center_Q, half_Q, step, std::move(texels));
 }
 
-PartMap get_brick(Reader& r) {
+DistanceBrick::Grid get_grid(Reader& r) {
   DistanceBrick::Grid grid;
   for (int& n : grid.blocks)
     n = r.get<std::uint16_t>();
   grid.origin_Q = r.get_vec3f();
   grid.block_m = r.get<float>();
+  return grid;
+}
+
+PartMap get_brick(Reader& r) {
+  const DistanceBrick::Grid grid = get_grid(r);
   const auto step = r.get<float>();
   const auto slack = r.get<float>();
   const auto count = r.get<std::uint32_t>();
@@ -200,11 +223,29 @@ PartMap get_brick(Reader& r) {
   return DistanceBrick(grid, step, slack, std::move(index), values);
 }
 
+PartMap get_field(Reader& r) {
+  DistanceField::Data data;
+  data.grid = get_grid(r);
+  data.slack_m = r.get<float>();
+  const auto children = r.get<std::uint32_t>();
+  const auto slots = r.get<std::uint32_t>();
+  r.require(DistanceBrick::is_valid(data.grid));
+  data.entries = r.get_all<std::uint64_t>(r.ok() ? data.grid.block_count() : 0);
+  data.children = r.get_all<std::uint32_t>(r.ok() ? children : 0);
+  const std::size_t slot_bytes = sizeof(DistanceField::Slot) * std::size_t{slots};
+  const std::vector<std::uint8_t> bytes = r.get_all<std::uint8_t>(r.ok() ? slot_bytes : 0);
+  data.slots.resize(bytes.size() / sizeof(DistanceField::Slot));
+  if (!bytes.empty()) std::memcpy(data.slots.data(), bytes.data(), bytes.size());
+  r.require(r.ok() && DistanceField::is_valid(data));
+  if (!r.ok()) return {};
+  return DistanceField(std::move(data));
+}
+
 PartMap get_map(Reader& r) {
   const auto kind = r.get<std::uint8_t>();
-  r.require(kind <= kBrick);
+  r.require(kind <= kField);
   if (!r.ok() || kind == kNothing) return {};
-  return kind == kRadial ? get_radial(r) : get_brick(r);
+  return kind == kRadial ? get_radial(r) : kind == kBrick ? get_brick(r) : get_field(r);
 }
 
 Part get_part(Reader& r) {
@@ -257,7 +298,9 @@ void get_clusters(Reader& r, Object& object) {
 std::vector<std::byte> write_object(const Object& object) {
   Writer w;
   w.put_raw(kMagic);
-  w.put(kPartFileVersion);
+  const bool has_field = std::any_of(object.parts.begin(), object.parts.end(),
+                                     [](const Part& part) { return part.map.field() != nullptr; });
+  w.put(has_field ? kFieldFileVersion : kPartFileVersion);
   w.put(static_cast<std::uint32_t>(object.parts.size()));
   for (const Part& part : object.parts)
     put_part(w, part);
@@ -292,10 +335,10 @@ Expected<Object> read_object(std::span<const std::byte> bytes) {
   }
   std::uint32_t version = 0;
   std::memcpy(&version, bytes.data() + kMagic.size(), sizeof version);
-  if (version != kPartFileVersion) {
+  if (version != kPartFileVersion && version != kFieldFileVersion) {
     return fail(ErrorCode::wrong_version,
-                "the part file has version " + std::to_string(version) + ", but this program reads version " +
-                    std::to_string(kPartFileVersion),
+                "the part file has version " + std::to_string(version) + ", but this program reads versions " +
+                    std::to_string(kPartFileVersion) + " and " + std::to_string(kFieldFileVersion),
                 where, remedy);
   }
   const auto body = bytes.first(bytes.size() - kChecksumBytes);

@@ -14,6 +14,8 @@ namespace mechane::collision {
 
 /// Raised with every change of the layout: a reader takes no other version, and the cache builds the object again.
 inline constexpr std::uint32_t kPartFileVersion = 3;
+/// Of a file that holds a DistanceField; the rest is as before, so that files without one stay what they were.
+inline constexpr std::uint32_t kFieldFileVersion = 4;
 
 [[nodiscard]] std::vector<std::byte> write_object(const Object& object);
 

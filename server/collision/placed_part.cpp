@@ -11,12 +11,21 @@ void PlacedPart::place(const Part& source, std::uint16_t source_index, const Pos
   }
   part = &source;
   index = source_index;
-  const RadialMap* map = source.map.radial();
-  is_radial = map != nullptr;
-  if (is_radial) {
+  if (const RadialMap* map = source.map.radial()) {
+    kind = Kind::radial;
     radial = map->view();
+  } else if (const DistanceBrick* other = source.map.brick()) {
+    kind = Kind::brick;
+    brick = other->view();
   } else {
-    brick = source.map.brick()->view();
+    kind = Kind::field;
+    field = source.map.field()->view();
+    X_BS = X_QS;
+    for (std::size_t i = 0; i < 3; ++i) {
+      X_BS.p_BA[i] = (X_QS.p_BA[i] - field.origin[i]) * field.inverse_block;
+      for (std::size_t j = 3 * i; j < 3 * i + 3; ++j)
+        X_BS.R_BA[j] = X_QS.R_BA[j] * field.inverse_block;
+    }
   }
 }
 

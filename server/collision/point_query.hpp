@@ -22,6 +22,7 @@ struct PointSet {
   std::size_t clusters_per_group = 0;  ///< 1 to 16
   Vec3f center = Vec3f::Zero();        ///< of a sphere around everything
   float radius = 0;
+  SpheresView quads{};  ///< around each four points, if the caller has them: a query of a DistanceField is quicker then
 };
 
 /// Which points lie inside, each once and in no order; structure of arrays. The storage is kept from one query to the next.
@@ -31,8 +32,9 @@ struct PointHits {
   std::vector<float> n_x, n_y, n_z;  ///< outward unit normal of the target's surface, in S
   std::size_t count = 0;
 
-  /// Room for every point of a set, so that a query allocates nothing.
+  /// Room for every point of a set, so that a query allocates nothing. The vectors are longer: kernels write whole vectors.
   explicit PointHits(std::size_t points);
+  [[nodiscard]] std::size_t room() const noexcept { return point.size() - kLanes - count; }
 };
 
 /// An object at a place. Made again when it moves; a query then only reads. The object must outlive it.
@@ -44,6 +46,8 @@ class PlacedObject {
   void query(const PointSet& points, PointHits& out, const Kernels& kernels = best_kernels()) const noexcept;
 
  private:
+  void query_field(const PointSet& points, PointHits& out, const Kernels& kernels) const noexcept;
+
   std::vector<PlacedPart> parts_;
   std::vector<Eigen::Matrix3f> R_SQ_;
   Vec3f center_S_ = Vec3f::Zero();

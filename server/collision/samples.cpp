@@ -98,6 +98,21 @@ geometry::Sphere bounding_sphere(std::span<const Vec3> points) {
   return sphere;
 }
 
+QuadSpheres quad_spheres(const PointBlock& points) {
+  QuadSpheres quads;
+  for (std::size_t quad = 0; quad < quads.x.size(); ++quad) {
+    std::array<Vec3, 4> four;
+    for (std::size_t i = 0; i < four.size(); ++i)
+      four[i] = Vec3f(points.x[4 * quad + i], points.y[4 * quad + i], points.z[4 * quad + i]).cast<double>();
+    const geometry::Sphere sphere = bounding_sphere(four);
+    quads.x[quad] = static_cast<float>(sphere.center.x());
+    quads.y[quad] = static_cast<float>(sphere.center.y());
+    quads.z[quad] = static_cast<float>(sphere.center.z());
+    quads.radius[quad] = static_cast<float>((sphere.radius + kFloatRounding * sphere.center.norm()) * (1 + 1e-6));
+  }
+  return quads;
+}
+
 void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points_O) {
   sort_into_runs(points_O);
   const std::span<const Vec3> points(points_O);
@@ -122,6 +137,8 @@ void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points
 }
 
 void close_clusters(Object& object) {
+  for (Cluster& cluster : object.clusters)
+    cluster.quads_O = quad_spheres(cluster.samples_O);
   close_groups(object);
   Eigen::AlignedBox3d box;
   for (const Part& part : object.parts) {

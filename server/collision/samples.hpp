@@ -12,6 +12,9 @@ namespace mechane::collision {
 /// A sphere around all points, close to the smallest (Ritter 1990, then enlarged by the rounding errors). Radius 0 for no points.
 [[nodiscard]] geometry::Sphere bounding_sphere(std::span<const Vec3> points);
 
+/// Around each four of 16 points; grown for the rounding of the centres to float32.
+[[nodiscard]] QuadSpheres quad_spheres(const PointBlock& points);
+
 /// Appends the samples of one part, in clusters. The parts come in order.
 void append_samples(Object& object, std::uint16_t part, std::vector<Vec3> points_O);
 

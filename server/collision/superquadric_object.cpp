@@ -87,6 +87,7 @@ Object mirrored(Object object) {
   for (Cluster& cluster : object.clusters) {
     turn(cluster.bound_O.center.z());
     std::ranges::for_each(cluster.samples_O.z, turn);
+    std::ranges::for_each(cluster.quads_O.z, turn);
   }
   for (ClusterGroup& group : object.groups) {
     turn(group.bound_O.center.z());

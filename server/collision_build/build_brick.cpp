@@ -16,9 +16,6 @@ namespace {
 
 constexpr int kFinest = collision::DistanceBrick::kFinest;
 constexpr float kNotAsked = std::numeric_limits<float>::infinity();
-// Cosine between a face's normal and the way to its nearest point: above this, the point is not on the face's edge.
-constexpr double kOnFace = 0.9999;
-constexpr double kSameSide = 1.0001;  // of the way between two nodes
 // Of a block's edge: sheets get samples down to this far below the depth that a finger reaches.
 constexpr double kBelow = 0.1;
 // Of a block's edge: by how much a distance outside may be too large. Culling has to allow for it.

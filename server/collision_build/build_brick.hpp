@@ -12,6 +12,11 @@
 
 namespace mechane::collision_build {
 
+// Of exact distances to a mesh. Cosine between a face's normal and the way to its nearest point: above this, the point is not on the
+// face's edge. And of the way between two places: if their distances add up to more, they lie on the same side of the surface.
+inline constexpr double kOnFace = 0.9999;
+inline constexpr double kSameSide = 1.0001;
+
 struct BrickNeeds {
   double probe_depth_m = 0;  ///< down to this far under the surface the depth must be exact
   double tolerance_m = 0;    ///< a block stays coarse while no depth that is tried in it errs by more

@@ -8,12 +8,17 @@
 #include <utility>
 
 #include "server/base/random.hpp"
+#include "server/collision_build/build_field.hpp"
 
 namespace mechane::collision_build {
 namespace {
 
 // How many blocks a brick may have along its longest edge.
 constexpr std::array<int, 11> kBrickBlocks = {2, 3, 4, 6, 8, 11, 16, 22, 32, 45, 64};
+// The same for fields, whose blocks are halved where they must be.
+constexpr std::array<int, 10> kFieldBlocks = {6, 8, 10, 12, 15, 19, 24, 32, 45, 64};
+// A field may take this many times the bytes of the smallest that meets the budget: fine blocks cull better and are halved less often.
+constexpr double kFieldGrowth = 1.5;
 // Of the lesser bound: the error that a block's level may have at its nodes, so that places between them stay within the budget too.
 constexpr double kBlockTolerance = 0.5;
 // Of a depth: by how much it may err deep down, as long as the budget allows. In a concave corner sheets give too small a depth.
@@ -73,8 +78,6 @@ class Trials {
   /// Tries bricks that are smaller than the best map so far.
   void try_bricks() {
     Trend trend;
-    const BrickNeeds needs{budget_.probe_depth_m, kBlockTolerance * std::min(budget_.depth_p99_m, budget_.missed_m),
-                           std::min(kDepthShare, budget_.depth_p99_m / budget_.probe_depth_m), budget_.missed_m};
     for (const int n : kBrickBlocks) {
       const bool hopeless = trend.rules_out(kBrickBlocks.back(), budget_);
       if (trend.rules_out(n, budget_) && !hopeless) continue;
@@ -83,11 +86,27 @@ class Trials {
       const std::size_t most = hopeless ? std::min(allowed_.at_most, kMostWithoutHope) : allowed_.at_most;
       const std::size_t limit = best_.met ? std::min(most, best_.map.bytes() - 1) : most;
       std::optional<collision::DistanceBrick> brick =
-          build_brick(solid_, skin_, frame_.X_OQ, grid, needs, allowed_.must, limit);
+          build_brick(solid_, skin_, frame_.X_OQ, grid, needs(), allowed_.must, limit);
       if (!brick) return;  // a finer one is larger
       if (brick->bytes() <= allowed_.more_than) continue;
       trend = judge(std::move(*brick), n);
       if (best_.met && best_.map.brick() != nullptr) return;
+    }
+  }
+
+  /// From coarse blocks, which are halved more often, to fine ones: the bytes fall, then they rise. The finest that is still small wins.
+  void try_fields() {
+    const FieldSource source{solid_, skin_, *allowed_.field_of, frame_.X_OQ};
+    std::size_t most = allowed_.at_most;
+    for (const int n : kFieldBlocks) {
+      const collision::DistanceField::Grid grid = brick_grid(frame_, n);
+      if (!collision::DistanceBrick::is_valid(grid)) return;
+      auto field = build_field(source, grid, needs(), allowed_.must, most);
+      if (!field && best_.met) return;
+      if (!field) continue;
+      const auto bytes = static_cast<double>(field->bytes());
+      judge(std::move(*field), n);
+      if (best_.met) most = std::min(most, static_cast<std::size_t>(kFieldGrowth * bytes));
     }
   }
 
@@ -96,6 +115,11 @@ class Trials {
   [[nodiscard]] bool is_done() const { return !best_.map.empty() && (best_.met || probes_.empty()); }
 
  private:
+  [[nodiscard]] BrickNeeds needs() const {
+    return {budget_.probe_depth_m, kBlockTolerance * std::min(budget_.depth_p99_m, budget_.missed_m),
+            std::min(kDepthShare, budget_.depth_p99_m / budget_.probe_depth_m), budget_.missed_m};
+  }
+
   Trend judge(collision::PartMap map, int fineness) {
     MapChoice tried;
     tried.map = std::move(map);
@@ -170,6 +194,8 @@ MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const
 MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, const MapFrame& frame,
                      std::span<const Probe> probes, const ErrorBudget& budget, const MapCandidates& candidates) {
   Trials trials(solid, skin, frame, probes, budget, candidates);
+  if (candidates.field_of != nullptr) trials.try_fields();
+  if (trials.is_done()) return trials.take();
   if (candidates.radial) trials.try_radial_maps();
   const bool asked_once = probes.empty() && trials.is_done();
   if (trials.may_try_bricks() && !asked_once) trials.try_bricks();

@@ -12,6 +12,7 @@
 #include "server/collision_build/build_brick.hpp"
 #include "server/collision_build/cast_map.hpp"
 #include "server/collision_build/solid.hpp"
+#include "server/geometry/mesh.hpp"
 #include "server/geometry/mesh_query.hpp"
 
 namespace mechane::collision_build {
@@ -44,10 +45,11 @@ struct MapError {
 struct MapCandidates {
   bool radial = true;
   bool brick = true;
-  int only_resolution = 0;           ///< of a radial map; 0: any
-  std::size_t more_than = 0;         ///< bytes: only larger maps
-  std::size_t at_most = 128U << 10;  ///< bytes
-  std::span<const Probe> must = {};  ///< points none of which may be missed or wrong, besides the budget
+  int only_resolution = 0;                   ///< of a radial map; 0: any
+  std::size_t more_than = 0;                 ///< bytes: only larger maps
+  std::size_t at_most = 128U << 10;          ///< bytes
+  std::span<const Probe> must = {};          ///< points none of which may be missed or wrong, besides the budget
+  const geometry::Mesh* field_of = nullptr;  ///< the skin's mesh: a DistanceField of it comes before the others
 };
 
 struct MapChoice {
@@ -65,7 +67,8 @@ struct MapChoice {
 using Ask = std::function<collision::MapHit(const Vec3& p_O)>;
 [[nodiscard]] MapError measure(std::span<const Probe> probes, const ErrorBudget& budget, const Ask& ask);
 
-/// Tries the candidates of either kind from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap
+/// Tries a field, if one is allowed, of several block sizes, and takes the smallest that meets the budget. Else it tries the
+/// candidates of either other kind from the smallest on. A few points that the part alone gets wrong may pass: its neighbours overlap
 /// it, and the whole object is measured afterwards. Where none meets the budget: the one with the least error, `met` false; an empty map
 /// where no candidate is left.
 [[nodiscard]] MapChoice choose_map(const Solid& solid, const geometry::MeshQuery& skin, const MapFrame& frame,

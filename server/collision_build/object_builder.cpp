@@ -9,7 +9,6 @@
 
 #include "server/base/parallel.hpp"
 #include "server/base/random.hpp"
-#include "server/collision/placed_part.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision_build/cast_map.hpp"
 #include "server/collision_build/choose_map.hpp"
@@ -26,11 +25,14 @@ constexpr std::size_t kProbesPerPart = 600;  // for the choice of its map
 constexpr std::size_t kReportProbes = 400;   // per part, for the object's error
 constexpr int kRefinements = 4;              // rounds, at most
 constexpr std::size_t kWitnessesPerPart = 12'000;
+constexpr std::size_t kWitnessesOfField = 4;  // as if it were so many parts
 constexpr std::size_t kMostWitnesses = 120'000;
 constexpr double kWitnessDepth = 2.5;     // times what must not be missed
 constexpr std::size_t kChunk = 1000;      // witnesses
 constexpr double kMostGrowth = 2.5;       // of a map's bytes in one round, for the sake of a thin layer under a crest
 constexpr std::size_t kWorthOfWhole = 2;  // a brick may take this many times the bytes of the parts that it replaces
+constexpr std::size_t kBytesOfPart =
+    480;  // beside its map; fixed, so that no member that is added changes what is built
 constexpr std::size_t kMostPartsOfWhole = 48;   // for more parts, 64 blocks along the longest edge are too coarse
 constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
 constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is for the 99th percentile
@@ -147,6 +149,7 @@ struct BuildInput {
 };
 
 bool wants_pieces(const BuildConfig& config, std::size_t nodes) {
+  if (config.fields) return false;
   return config.parts == Parts::decomposed || (config.parts == Parts::automatic && nodes == 1);
 }
 
@@ -208,6 +211,7 @@ MapChoice map_for(const BuiltPart& built, const BuildInput& input, std::size_t m
   const BuildConfig& config = input.config;
   MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
   candidates.must = must;
+  if (config.fields) candidates.field_of = &input.skin_mesh;
   // A map that is not exact enough may grow as far as it must; one that only misses a thin layer may not.
   if (more_than > 0 && !may_grow)
     candidates.at_most =
@@ -223,7 +227,9 @@ void set_map(MapChoice&& choice, collision::Part& part, PartReport& report) {
   part.map = std::move(choice.map);
 }
 
-Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input, PartReport& report) {
+/// `must`: see MapCandidates.
+Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input, std::span<const Probe> must,
+                              PartReport& report) {
   const auto fit = fit_source(source, input);
   if (!fit) return tl::unexpected(fit.error());
   BuiltPart built;
@@ -238,7 +244,7 @@ Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input,
   built.part.X_OQ = fit->X_OQ;
   built.part.superquadric = fit->shape;
   built.part.bound_O = collision::bounding_sphere(source.bound_points_O);
-  set_map(map_for(built, input, 0, {}), built.part, report);
+  set_map(map_for(built, input, 0, must), built.part, report);
   if (source.places.empty()) {  // wholly inside others: nobody feels it
     report.error = {0, 0, 0, 0, 0, 0};
     report.met = true;
@@ -377,7 +383,7 @@ void refine(std::vector<collision::Part>& parts, std::span<const BuiltPart> buil
 
 /// A part as a query uses it.
 std::size_t bytes_of(const collision::Part& part) {
-  return part.map.bytes() + sizeof(collision::Part) + sizeof(collision::PlacedPart);
+  return part.map.bytes() + kBytesOfPart;
 }
 
 /// The whole object as one source.
@@ -476,12 +482,15 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
 
   auto sources = find_sources(nodes, input);
   if (!sources) return tl::unexpected(sources.error());
+  const bool is_one_field = config.fields && sources->size() == 1;  // it must find all witnesses by itself
+  const std::vector<Probe> witnesses = make_witnesses(input, is_one_field ? kWitnessesOfField : sources->size());
+  const std::span<const Probe> must = is_one_field ? std::span(witnesses) : std::span<const Probe>();
   std::vector<Expected<BuiltPart>> tried(sources->size());
   BuildReport full_report;
   full_report.parts.resize(sources->size());
   std::atomic<std::size_t> done{0};
   for_each_index(sources->size(), [&](std::size_t i) {
-    tried[i] = make_part((*sources)[i], input, full_report.parts[i]);
+    tried[i] = make_part((*sources)[i], input, must, full_report.parts[i]);
     if (on_part) on_part(++done, sources->size());
   });
   collision::Object object;
@@ -491,7 +500,6 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
     object.parts.push_back(std::move(one->part));
     built.push_back(std::move(*one));
   }
-  const std::vector<Probe> witnesses = make_witnesses(input, object.parts.size());
   refine(object.parts, built, witnesses, input, full_report.parts);
   std::vector<Probe> report_probes;
   if (report != nullptr) report_probes = make_report_probes(*sources, input);

@@ -41,6 +41,8 @@ struct BuildConfig {
   double probe_depth_m = 0.004;  ///< how deep the error is measured: a finger that presses hard sinks in this far
   bool radial_maps = true;       ///< what the builder may choose from
   bool bricks = true;
+  bool fields =
+      false;  ///< one DistanceField for each mesh, uncut, where that meets the budget; see deploy/decisions/037-fields.md
   Bounds bounds = Bounds::superquadrics;
   int map_resolution = 0;                   ///< of radial maps: one of RadialMap::kResolutions; 0: chosen
   double sample_spacing_m = 0.005;          ///< between surface samples; under a third of a fingertip

@@ -30,13 +30,13 @@ constexpr std::int64_t kSecondsBetweenLines = 5;
 std::string cache_name(const std::string& geometry, const collision_build::BuildConfig& config) {
   const std::string key = fmt::format(
       "part file {} build {} geometry {} error {:a} {:a} miss {:a} probes {:a} solid {} {:a} "
-      "parts {} {:a} {} {} maps {}{} bounds {} resolution {} "
+      "parts {} {:a} {} {} maps {}{}{} bounds {} resolution {} "
       "spacing {:a} samples {} seam {:a} seed {}",
       collision::kPartFileVersion, kObjectBuildVersion, geometry, config.max_error_share, config.max_error_m,
       config.miss_share, config.probe_depth_m, static_cast<int>(config.solid.kind), config.solid.thickness_m,
       static_cast<int>(config.parts), config.max_concavity, config.max_pieces, config.grid_cells, config.radial_maps,
-      config.bricks, static_cast<int>(config.bounds), config.map_resolution, config.sample_spacing_m,
-      config.max_samples_per_part, config.seam_gap_m, config.seed);
+      config.bricks, config.fields ? " field" : "", static_cast<int>(config.bounds), config.map_resolution,
+      config.sample_spacing_m, config.max_samples_per_part, config.seam_gap_m, config.seed);
   return content_hash(std::as_bytes(std::span(key))) + ".part";
 }
 

@@ -19,6 +19,11 @@ namespace mechane::benchmark {
 namespace {
 
 constexpr const char* kOurs = "sqmap";
+constexpr const char* kField = "field";
+
+bool is_ours(const std::string& method) {
+  return method.starts_with(kOurs) || method.starts_with(kField);
+}
 
 struct Config {
   std::uint64_t seed = kDefaultSeed;
@@ -26,10 +31,10 @@ struct Config {
   std::size_t checked = 200;
   double budget_pct = 0.3;
   TimingConfig timing;
-  std::vector<std::string> methods = {kOurs,           "sqmap_avx512", "sqmap_avx2", "sqmap_portable",
-                                      "sqmap_nobrick", "sqmap_boxes",  "paper",      "paper_along",
-                                      "brick",         "brick_scalar", "openvdb",    "bt_sdf",
-                                      "embree",        "fcl_contacts", "fcl_yesno",  "fcl_gjk"};
+  std::vector<std::string> methods = {kOurs,         "sqmap_avx512", "sqmap_avx2",   "sqmap_portable", "sqmap_nobrick",
+                                      "sqmap_boxes", "field",        "field_avx2",   "field_portable", "paper",
+                                      "paper_along", "brick",        "brick_scalar", "openvdb",        "bt_sdf",
+                                      "embree",      "fcl_contacts", "fcl_yesno",    "fcl_gjk"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
@@ -41,7 +46,7 @@ class Workshop {
 
   /// Null where the machine lacks what it takes, which the report then says, or where there is no such method.
   MethodPtr make(const std::string& name, const Accuracy& accuracy) {
-    if (name.starts_with(kOurs)) return make_ours(name);
+    if (is_ours(name)) return make_ours(name);
     if (name.starts_with("paper")) return make_paper(scene_, name, *objects_of(OurMaps::any));
     if (name == "brick") return make_brick(scene_, accuracy, Simd::best);
     if (name == "brick_scalar") return make_brick(scene_, accuracy, Simd::scalar);
@@ -62,6 +67,9 @@ class Workshop {
     if (name == "sqmap_avx2") return with(name, OurMaps::any, InstructionSet::avx2);
     if (name == "sqmap_portable") return with(name, OurMaps::any, InstructionSet::portable);
     if (name == "sqmap_nobrick") return with(name, OurMaps::radial_only, collision::best_set());
+    if (name == "field") return with(name, OurMaps::fields, collision::best_set());
+    if (name == "field_avx2") return with(name, OurMaps::fields, InstructionSet::avx2);
+    if (name == "field_portable") return with(name, OurMaps::fields, InstructionSet::portable);
     if (name == "sqmap_boxes") return with(name, OurMaps::boxes, collision::best_set());
     return nullptr;
   }
@@ -134,6 +142,7 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
     report.metric("depth_error_pct" + place + ".max", a.error_max_pct);
     report.metric("normal_error_deg" + place + ".p50", a.normal_p50_deg);
     report.metric("normal_error_deg" + place + ".p99", a.normal_p99_deg);
+    report.metric("normal_deg" + place + ".p99", a.faces_p99_deg);
     report.metric("missed" + place, static_cast<double>(a.missed));
     report.metric("false" + place, static_cast<double>(a.false_hits));
     worst.points += a.points;
@@ -141,6 +150,7 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
     worst.false_hits += a.false_hits;
     worst.error_p50_pct = std::max(worst.error_p50_pct, a.error_p50_pct);
     worst.error_p99_pct = std::max(worst.error_p99_pct, a.error_p99_pct);
+    worst.faces_p99_deg = std::max(worst.faces_p99_deg, a.faces_p99_deg);
     worst.error_max_pct = std::max(worst.error_max_pct, a.error_max_pct);
   }
   for (const std::string& place :
@@ -148,6 +158,7 @@ void report_agreement(const Scene& scene, const std::string& method, const Agree
     report.metric("depth_error_pct" + place + ".p50", worst.error_p50_pct);
     report.metric("depth_error_pct" + place + ".p99", worst.error_p99_pct);
     report.metric("depth_error_pct" + place + ".max", worst.error_max_pct);
+    report.metric("normal_deg" + place + ".p99", worst.faces_p99_deg);
     report.metric("missed" + place, static_cast<double>(worst.missed));
     report.metric("false" + place, static_cast<double>(worst.false_hits));
   }
@@ -189,16 +200,20 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
   report.curve("grasp." + method, by_step(times, scene.steps.size()));
 }
 
-/// ratio.<peer> and, with a run of our AVX2 kernels, ratio_avx2.<peer>: how many times as long as ours the peer takes.
+/// ratio.<peer> and, with a run of our AVX2 kernels, ratio_avx2.<peer>: how many times as long as ours the peer takes. With fields, also
+/// ratio_field.<peer>. ratio_p99 and the like are those of the 99th percentiles.
 void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
-  std::map<std::string, double> medians;
-  for (std::size_t m = 0; m < methods.size(); ++m)
-    medians[methods[m]->name()] = Quantiles(times[m].all_passes_us()).quantile_us(0.5);
-  for (const auto& [base, prefix] : {std::pair{kOurs, "ratio."}, std::pair{"sqmap_avx2", "ratio_avx2."}}) {
-    const auto ours = medians.find(base);
-    if (ours == medians.end() || ours->second <= 0) continue;
-    for (const auto& [name, median] : medians)
-      if (!name.starts_with(kOurs)) report.metric(prefix + name, median / ours->second);
+  for (const auto& [share, suffix] : {std::pair{0.5, ""}, std::pair{0.99, "_p99"}}) {
+    std::map<std::string, double> us;
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      us[methods[m]->name()] = Quantiles(times[m].all_passes_us()).quantile_us(share);
+    for (const auto& [base, prefix] :
+         {std::pair{kOurs, "ratio"}, std::pair{"sqmap_avx2", "ratio_avx2"}, std::pair{kField, "ratio_field"}}) {
+      const auto ours = us.find(base);
+      if (ours == us.end() || ours->second <= 0) continue;
+      for (const auto& [name, time] : us)
+        if (!is_ours(name)) report.metric(prefix + std::string(".") + name + suffix, time / ours->second);
+    }
   }
 }
 

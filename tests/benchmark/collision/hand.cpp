@@ -78,6 +78,8 @@ Segment make_segment(std::size_t index) {
     MECHANE_ASSERT(object.clusters[i].count == kClusterPoints);
     segment.clusters_S[i] = object.clusters[i].bound_O;
   }
+  for (std::size_t i = 0; i < segment.quads_S.size(); ++i)
+    segment.quads_S[i] = collision::bounding_sphere(std::span(all).subspan(4 * i, 4));
   segment.bound_S = collision::bounding_sphere(all);
   return segment;
 }
@@ -142,6 +144,8 @@ void Scene::fill(std::size_t step, HandStep& out) const {
     for (std::size_t c = 0; c < kSegmentClusters; ++c)
       sphere(hand[s].clusters_S[c], s * kSegmentClusters + c, out.cluster_x, out.cluster_y, out.cluster_z,
              out.cluster_r);
+    for (std::size_t q = 0; q < kSegmentPoints / 4; ++q)
+      sphere(hand[s].quads_S[q], s * kSegmentPoints / 4 + q, out.quad_x, out.quad_y, out.quad_z, out.quad_r);
     sphere(hand[s].bound_S, s, out.segment_x, out.segment_y, out.segment_z, out.segment_r);
     out.center += p / kSegments;
   }

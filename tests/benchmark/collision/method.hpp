@@ -95,8 +95,8 @@ using MethodPtr = std::unique_ptr<Method>;
 
 enum class Simd { best, scalar };
 
-/// How our builder goes about it: as it is; without bricks; with boxes in place of the superquadrics.
-enum class OurMaps { any, radial_only, boxes };
+/// How our builder goes about it: as it is; without bricks; with boxes in place of the superquadrics; with fields.
+enum class OurMaps { any, radial_only, boxes, fields };
 
 /// What it made of the scene's objects. Several methods may ask the same.
 struct OurObjects {

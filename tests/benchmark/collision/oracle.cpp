@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "tests/benchmark/collision/solid_query.hpp"
 
@@ -14,8 +16,40 @@ namespace {
 constexpr double kNear = 0.005;    // of the diagonal: exact answers are kept this far outside
 constexpr double kCounts = 0.002;  // of the diagonal: a contact this deep must not be missed, nor be made up
 
-void ask(const SceneObject& object, std::size_t index, const SolidQuery& query, const HandStep& hand,
-         std::vector<Oracle::Answer>& out) {
+constexpr double kEdgeBand_m = 0.001;
+constexpr double kEdgeCosine = 0.8660254;  // of 30 degrees
+
+/// The edges of a mesh in which two faces meet at an angle.
+class SharpEdges {
+ public:
+  explicit SharpEdges(const SceneObject& object) {
+    const geometry::Mesh& mesh = object.skin_O.triangles.empty() ? object.mesh_O : object.skin_O;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> normals;
+    for (const auto& t : mesh.triangles) {
+      const Vec3 n =
+          (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).normalized();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t from = t[i];
+        const std::uint32_t to = t[(i + 1) % 3];
+        const auto [other, fresh] = normals.try_emplace(std::minmax(from, to), n);
+        if (!fresh && other->second.dot(n) < kEdgeCosine) edges_.emplace_back(mesh.vertices[from], mesh.vertices[to]);
+      }
+    }
+  }
+  [[nodiscard]] bool are_near(const Vec3& p) const {
+    return std::any_of(edges_.begin(), edges_.end(), [&](const auto& edge) {
+      const Vec3 along = edge.second - edge.first;
+      const double share = std::clamp(along.dot(p - edge.first) / along.squaredNorm(), 0.0, 1.0);
+      return (edge.first + share * along - p).norm() < kEdgeBand_m;
+    });
+  }
+
+ private:
+  std::vector<std::pair<Vec3, Vec3>> edges_;
+};
+
+void ask(const SceneObject& object, std::size_t index, const SolidQuery& query, const SharpEdges& edges,
+         const HandStep& hand, std::vector<Oracle::Answer>& out) {
   const Pose X_OW = object.X_WO.inverse();
   const double reach = kNear * object.diagonal_m;
   for (std::uint32_t i = 0; i < kHandPoints; ++i) {
@@ -28,7 +62,7 @@ void ask(const SceneObject& object, std::size_t index, const SolidQuery& query, 
     // On the very surface no direction is left: the triangle's own.
     const Vec3 n_O = closest.distance_m > 1e-9 ? Vec3(out_O.normalized()) : query.triangle_normal(closest.triangle);
     out.push_back({i, static_cast<std::uint8_t>(index), inside ? -closest.distance_m : closest.distance_m,
-                   object.X_WO.rotate(n_O), p.cast<float>()});
+                   object.X_WO.rotate(n_O), p.cast<float>(), edges.are_near(closest.p)});
   }
 }
 
@@ -42,7 +76,7 @@ double quantile(std::vector<double>& values, double share) {
 /// What is gathered of one object before the quantiles are taken.
 struct Gathered {
   Agreement counts;
-  std::vector<double> errors_pct, angles_deg;
+  std::vector<double> errors_pct, angles_deg, faces_deg;
 };
 
 /// The hit of each point with each object: at most one, objects do not overlap.
@@ -81,6 +115,7 @@ void compare_answer(const Oracle::Answer& exact, double diagonal, const Hits& hi
   if (depth > kCounts * diagonal && said > kCounts * diagonal) {
     const Vec3 n(hits.n_x[hit], hits.n_y[hit], hits.n_z[hit]);
     into.angles_deg.push_back(180 / kPi * std::atan2(n.cross(exact.n_W).norm(), n.dot(exact.n_W)));
+    if (!exact.at_edge) into.faces_deg.push_back(into.angles_deg.back());
   }
 }
 
@@ -90,6 +125,7 @@ Oracle::Oracle(const Scene& scene, std::size_t steps) {
   std::vector<std::unique_ptr<SolidQuery>> queries;
   for (const SceneObject& object : scene.objects)
     queries.push_back(std::make_unique<SolidQuery>(object));
+  const std::vector<SharpEdges> edges(scene.objects.begin(), scene.objects.end());
   steps = std::min(steps, scene.steps.size());
   steps_.resize(steps);
   std::atomic<std::size_t> next{0};
@@ -99,7 +135,7 @@ Oracle::Oracle(const Scene& scene, std::size_t steps) {
       steps_[i].step = (2 * i + 1) * scene.steps.size() / (2 * steps);
       scene.fill(steps_[i].step, *hand);
       for (std::size_t k = 0; k < scene.objects.size(); ++k)
-        ask(scene.objects[k], k, *queries[k], *hand, steps_[i].near);
+        ask(scene.objects[k], k, *queries[k], edges[k], *hand, steps_[i].near);
     }
   };
   std::vector<std::jthread> others;
@@ -149,6 +185,7 @@ std::array<Agreement, kSceneObjects> compare(const Scene& scene, const Oracle& o
     result[k].error_p99_pct = quantile(gathered[k].errors_pct, 0.99);
     result[k].error_max_pct = quantile(gathered[k].errors_pct, 1);
     result[k].normal_p50_deg = quantile(gathered[k].angles_deg, 0.5);
+    result[k].faces_p99_deg = quantile(gathered[k].faces_deg, 0.99);
     result[k].normal_p99_deg = quantile(gathered[k].angles_deg, 0.99);
   }
   return result;

@@ -24,6 +24,7 @@ class Oracle {
     double distance_m = 0;  ///< negative inside
     Vec3 n_W = Vec3::Zero();
     Vec3f p_O = Vec3f::Zero();
+    bool at_edge = false;  ///< the nearest place of the surface lies within 1 mm of an edge of over 30 degrees
   };
   /// The answers at one step: only points inside, or outside by less than half a per cent of the diagonal.
   struct Step {
@@ -44,6 +45,7 @@ struct Agreement {
   std::size_t points = 0;                                          ///< inside, by either
   double error_p50_pct = 0, error_p99_pct = 0, error_max_pct = 0;  ///< of the depth, in % of the diagonal
   double normal_p50_deg = 0, normal_p99_deg = 0;                   ///< where both are deeper than 0.2 %
+  double faces_p99_deg = 0;                                        ///< the same, of answers that are not at_edge
   std::size_t missed = 0;                                          ///< exact deeper than 0.2 %, no hit
   std::size_t false_hits = 0;                                      ///< hit deeper than 0.2 %, exact outside
   double deepest_pct = 0;                                          ///< exact

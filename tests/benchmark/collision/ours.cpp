@@ -1,4 +1,5 @@
 // The product's own query, through the collision room.
+#include <algorithm>
 #include <array>
 #include <iostream>
 
@@ -17,6 +18,7 @@ collision_build::BuildConfig config_for(const SceneObject& object, OurMaps maps)
   config.max_error_m = object.max_error_m;
   config.probe_depth_m = object.probe_depth_m;
   config.bricks = maps != OurMaps::radial_only;
+  config.fields = maps == OurMaps::fields;
   config.bounds = maps == OurMaps::boxes ? collision_build::Bounds::boxes : collision_build::Bounds::superquadrics;
   return config;
 }
@@ -61,12 +63,20 @@ class Ours final : public Method {
         kSegments,
         kSegmentClusters,
         hand.center,
-        hand.radius};
+        hand.radius,
+        {hand.quad_x.data(), hand.quad_y.data(), hand.quad_z.data(), hand.quad_r.data()}};
     for (std::size_t k = 0; k < placed_.size(); ++k) {
       found_.count = 0;
       placed_[k].query(points, found_, kernels_);
-      for (std::size_t i = 0; i < found_.count; ++i)
-        out.add(found_.point[i], k, found_.depth_m[i], {found_.n_x[i], found_.n_y[i], found_.n_z[i]});
+      const std::size_t count = std::min(found_.count, kHandPoints - out.count);
+      const auto copy = [&](const auto& from, auto& to) { std::copy_n(from.begin(), count, &to[out.count]); };
+      copy(found_.point, out.point);
+      copy(found_.depth_m, out.depth_m);
+      copy(found_.n_x, out.n_x);
+      copy(found_.n_y, out.n_y);
+      copy(found_.n_z, out.n_z);
+      std::fill_n(&out.object[out.count], count, static_cast<std::uint8_t>(k));
+      out.count += count;
     }
   }
 

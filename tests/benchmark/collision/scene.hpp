@@ -27,6 +27,7 @@ inline constexpr std::size_t kSegmentPoints = 128;
 inline constexpr std::size_t kHandPoints = kSegments * kSegmentPoints;
 inline constexpr std::size_t kClusterPoints = 16;
 inline constexpr std::size_t kSegmentClusters = kSegmentPoints / kClusterPoints;
+inline constexpr std::size_t kQuads = kHandPoints / 4;  ///< four points of a cluster, with a sphere of their own
 inline constexpr std::size_t kClusters = kSegments * kSegmentClusters;
 
 struct SceneObject {
@@ -50,6 +51,7 @@ struct Segment {
   geometry::Mesh mesh_S;  ///< of as many vertices as there are samples: what a mesh library collides
   std::vector<Vec3f> samples_S;
   std::array<geometry::Sphere, kSegmentClusters> clusters_S;
+  std::array<geometry::Sphere, kSegmentPoints / 4> quads_S;
   geometry::Sphere bound_S;
 };
 
@@ -61,6 +63,7 @@ struct alignas(64) HandStep {
   std::array<float, kHandPoints> x, y, z;
   // A kernel may read 16 spheres where 8 are left.
   std::array<float, kClusters + 16> cluster_x, cluster_y, cluster_z, cluster_r;
+  std::array<float, kQuads> quad_x, quad_y, quad_z, quad_r;
   std::array<float, kSegments> segment_x, segment_y, segment_z, segment_r;
   Vec3f center = Vec3f::Zero();  ///< of a sphere around all
   float radius = 0;

@@ -9,6 +9,7 @@
 #include "server/collision/kernel_body.hpp"
 #include "server/collision/part_map.hpp"
 #include "server/collision/superquadric_object.hpp"
+#include "tests/support/fields.hpp"
 
 namespace mechane::collision {
 namespace {
@@ -150,6 +151,84 @@ TEST(Kernels, EverySetGivesTheSameBitsForABrick) {
     inside += expect_all_alike(brick.view(), &Kernels::brick_inside, &Kernels::brick_depth, random);
   }
   EXPECT_GT(inside, 200U);
+}
+
+TEST(Kernels, EverySetGivesTheSameBitsForAField) {
+  Random random(11);
+  std::size_t inside = 0;
+  for (int round = 0; round < 400; ++round) {
+    const DistanceField field = test::any_field(random);
+    inside += expect_all_alike(field.view(), &Kernels::field_inside, &Kernels::field_depth, random);
+  }
+  EXPECT_GT(inside, 50U);
+}
+
+/// Clusters of points all over a field, from cluster to hits.
+struct FieldAnswer {
+  std::vector<std::uint32_t> near, point;
+  std::vector<float> depth_m, n_x, n_y, n_z;
+  bool operator==(const FieldAnswer&) const = default;
+};
+
+FieldAnswer ask_field(const Kernels& kernels, const FieldView& map, const BlockTransform& X_B, const PointRuns& points,
+                      std::vector<std::uint32_t> clusters, std::size_t room) {
+  const std::size_t count_of = clusters.size();
+  clusters.resize(count_of + kLanes);
+  FieldAnswer answer;
+  answer.near.resize(4 * clusters.size() + kLanes);
+  answer.near.resize(
+      kernels.field_sift(map, X_B, points.quads, points.quad_stride, clusters.data(), count_of, answer.near.data()));
+  answer.point.resize(room + kLanes);
+  for (auto* values : {&answer.depth_m, &answer.n_x, &answer.n_y, &answer.n_z})
+    values->resize(room + kLanes);
+  const HitRuns out{answer.point.data(), answer.depth_m.data(), answer.n_x.data(),
+                    answer.n_y.data(),   answer.n_z.data(),     room};
+  const std::size_t count =
+      kernels.field_hits(map, X_B, {0, 1, 0, 0, 0, 1, 1, 0, 0}, points, clusters.data(), count_of, out);
+  EXPECT_LE(count, room);
+  answer.point.resize(count);
+  for (auto* values : {&answer.depth_m, &answer.n_x, &answer.n_y, &answer.n_z})
+    values->resize(count);
+  return answer;
+}
+
+TEST(Kernels, EverySetFindsTheSamePointsInAField) {
+  Random random(12);
+  constexpr std::size_t kClusters = 70;
+  std::size_t hits = 0;
+  for (int round = 0; round < 300; ++round) {
+    const DistanceField field = test::any_field(random);
+    const FieldView map = field.view();
+    BlockTransform X_B = any_transform(random);
+    for (float& value : X_B.R_BA)
+      value *= map.inverse_block;
+    X_B.p_BA = {0.5F * static_cast<float>(map.blocks[0]), 0.5F * static_cast<float>(map.blocks[1]), 0};
+    std::vector<PointBlock> points(kClusters);
+    std::vector<QuadSpheres> quads(kClusters);
+    for (std::size_t c = 0; c < kClusters; ++c) {
+      points[c] = any_points(random);
+      for (std::size_t i = 0; i < 4; ++i) {
+        quads[c].x[i] = points[c].x[4 * i];
+        quads[c].y[i] = points[c].y[4 * i];
+        quads[c].z[i] = points[c].z[4 * i];
+        quads[c].radius[i] = between(random, 0, 0.1);
+      }
+    }
+    const PointRuns runs{points[0].x.data(), points[0].y.data(),
+                         points[0].z.data(), sizeof(PointBlock) / sizeof(float),
+                         quads[0].view(),    sizeof(QuadSpheres) / sizeof(float)};
+    std::vector<std::uint32_t> clusters;
+    for (std::uint32_t c = 0; c < kClusters && clusters.size() < kFieldBatch; ++c) {
+      if (random.below(4) != 0) clusters.push_back(c);
+    }
+    const std::size_t room = random.below(4) == 0 ? 37 : kLanes * kFieldBatch;
+    const auto sets = all_kernels();
+    const FieldAnswer want = ask_field(*sets.front(), map, X_B, runs, clusters, room);
+    for (const Kernels* kernels : sets)
+      EXPECT_TRUE(ask_field(*kernels, map, X_B, runs, clusters, room) == want) << kernels->name;
+    hits += want.point.size();
+  }
+  EXPECT_GT(hits, 1000U);
 }
 
 SphereBlock any_spheres(Random& random) {

@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "server/base/random.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision/superquadric_object.hpp"
 #include "server/collision_build/object_builder.hpp"
 #include "tests/support/error_like.hpp"
+#include "tests/support/fields.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -28,6 +30,28 @@ TEST(ObjectIo, ComesBackAsItWent) {
   EXPECT_EQ(sample_count(*read), sample_count(*object));
   const Vec3f p(0.001F, 0.002F, 0.003F);
   EXPECT_EQ(read->parts[1].map.evaluate(p).depth_m, object->parts[1].map.evaluate(p).depth_m);
+}
+
+TEST(ObjectIo, AFieldComesBackAndOnlyItsFilesHaveTheNewVersion) {
+  const auto version_of = [](const std::vector<std::byte>& bytes) {
+    std::uint32_t version = 0;
+    std::memcpy(&version, &bytes[8], sizeof version);
+    return version;
+  };
+  Random random(6);
+  for (int i = 0; i < 20; ++i) {
+    const Object object = mechane::test::object_of(mechane::test::any_field(random));
+    const std::vector<std::byte> bytes = write_object(object);
+    EXPECT_EQ(version_of(bytes), kFieldFileVersion);
+    const auto read = read_object(bytes);
+    ASSERT_TRUE(read) << read.error().to_string();
+    ASSERT_NE(read->parts[0].map.field(), nullptr);
+    EXPECT_EQ(write_object(*read), bytes);
+    EXPECT_EQ(read->parts[0].map.name(), object.parts[0].map.name());
+  }
+  geometry::Superquadric shape;
+  shape.a = Vec3::Constant(0.01);
+  EXPECT_EQ(version_of(write_object(make_superquadric_object(shape, 0.005))), kPartFileVersion);
 }
 
 TEST(ObjectIo, SaysWhatIsWrong) {
