@@ -72,13 +72,11 @@ ShapeTree::ShapeTree(const Document& document) : document_(document) {
   }
   find_moved();
   find_collections();
-  for (const auto& [body, picture] : picture_of_)
-    reach(picture);
   has_scenery_ = reach(document.scene());
 }
 
 bool ShapeTree::has_shape(NodeId body) const {
-  return std::find(bodies_.begin(), bodies_.end(), body) != bodies_.end();
+  return std::binary_search(bodies_.begin(), bodies_.end(), body);  // ids ascend in the order written
 }
 
 NodeId ShapeTree::picture_of(NodeId body) const {
@@ -86,7 +84,8 @@ NodeId ShapeTree::picture_of(NodeId body) const {
   return found == picture_of_.end() ? NodeId::none() : found->second;
 }
 
-/// By ROUTEs of a body's position or orientation. One Transform is the picture of one body, the first that moves it.
+/// By ROUTEs of a body's position or orientation. One Transform is the picture of one body, the first that moves it. One without a shape
+/// that is drawn is no picture.
 void ShapeTree::find_moved() {
   for (const NodeId id : document_.elements("ROUTE")) {
     const Node& route = document_[id];
@@ -100,7 +99,7 @@ void ShapeTree::find_moved() {
     const std::string from = end("fromField"), to = end("toField");
     const bool moves = plain_field(from) == "position" && plain_field(to) == "translation";
     const bool turns = plain_field(from) == "orientation" && plain_field(to) == "rotation";
-    if (!moves && !turns) continue;
+    if ((!moves && !turns) || !reach(moved)) continue;
     if (moved_.contains(moved) || picture_of_.contains(body)) {
       if (picture_of(body) == moved) used_.insert(id);
       continue;

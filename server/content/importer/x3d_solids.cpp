@@ -7,7 +7,7 @@
 namespace mechane::content {
 namespace {
 
-constexpr std::uint32_t kAround = 72;
+constexpr std::uint32_t kAround = 144;
 constexpr std::uint32_t kUp = 36;             // of a sphere
 constexpr double kRoundCrease_rad = kPi / 4;  // smooth around, with an edge to the ends
 using Corner = Faces::Corner;

@@ -8,7 +8,7 @@
 namespace mechane::content {
 
 [[nodiscard]] Faces faces_of_box(const x3d::NodeFields& box);
-/// Round things are polygons of 72 corners: they are thinner than a circle by a thousandth of its radius.
+/// Round things are polygons of 144 corners: they are thinner than a circle by a four-thousandth of its radius.
 [[nodiscard]] Faces faces_of_sphere(const x3d::NodeFields& sphere);
 [[nodiscard]] Faces faces_of_cone(const x3d::NodeFields& cone);
 [[nodiscard]] Faces faces_of_cylinder(const x3d::NodeFields& cylinder);

@@ -156,7 +156,8 @@ Size size_by_assimp(const std::filesystem::path& file) {
 
 TEST_F(X3dImport, AnotherReaderSeesTheSameShapesInTheSamePlaces) {
   const std::string transform =
-      "<Transform translation='3 0 1' rotation='0.6 0.8 0 0.7' scale='1 2 0.5' center='0.2 0 0' scaleOrientation='0 1 0 "
+      "<Transform translation='3 0 1' rotation='0.6 0.8 0 0.7' scale='1 2 0.5' center='0.2 0 0' scaleOrientation='0 1 "
+      "0 "
       "0.4'>";
   for (const std::string& geometry :
        {std::string("<Box size='1 2 3'/>"), std::string(kTetrahedron), std::string(kL),
