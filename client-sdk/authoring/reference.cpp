@@ -101,7 +101,7 @@ constexpr std::string_view kShapesRules = R"(```
 - A `CollisionCollection` gives the bodies of its `collidables` their `bounce` and, where its `appliedParameters` say so, the first of its
   `frictionCoefficients`.
 - A file without `mechane:scenario` moves as X3D has it: without `autoDamp` nothing slows its bodies down.
-- VRML files (`.wrl`, `.x3dv`) are not read: `tovrmlx3d --encoding XML IN.wrl > OUT.x3d` makes X3D of them.
+- VRML files (`.wrl`, `.x3dv`) are not read: `tovrmlx3d --encoding xml IN.wrl > OUT.x3d` makes X3D of them.
 )";
 
 constexpr std::string_view kNodesIntroduction = R"(

@@ -99,5 +99,15 @@ TEST_F(ShapeTreeOf, NamesWithoutDefDiffer) {
   EXPECT_EQ(names[2], "A");
 }
 
+TEST_F(ShapeTreeOf, AFileOfVrmlIsSentToItsConverter) {
+  for (const char* text : {"#VRML V2.0 utf8\nShape { geometry Box { } }", "#X3D V3.3 utf8\nPROFILE Full\n"}) {
+    Problems problems("a.wrl");
+    const auto document = read_document(text, "a.wrl", problems);
+    ASSERT_FALSE(document);
+    EXPECT_EQ(document.error().code, ErrorCode::not_supported);
+    EXPECT_THAT(document.error().remedy, testing::HasSubstr("tovrmlx3d --encoding xml"));
+  }
+}
+
 }  // namespace
 }  // namespace mechane::x3d
