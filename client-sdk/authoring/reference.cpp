@@ -77,6 +77,33 @@ trees grow about `SCENE`, 13 m beyond it and its viewpoint (unless the model is 
 `mechane fit FILE.glb` shows how true each part feels.
 )";
 
+constexpr std::string_view kShapesIntroduction = R"(
+## Shapes without a modelling program
+
+X3D has shapes of its own, and a body may have them in place of a mesh file: its `geometry` is a `CollidableShape` with a `Shape`, or
+several, each shifted and turned by `translation` and `rotation` (`CollidableOffset` shifts what it holds once more). This is a whole file,
+which runs as it is: a ball falls onto a table.
+
+```xml
+)";
+
+constexpr std::string_view kShapesRules = R"(```
+
+- Shapes are `Box`, `Sphere`, `Cone`, `Cylinder`, `Extrusion`, `ElevationGrid`, `IndexedFaceSet`, `IndexedTriangleSet` and `TriangleSet`.
+  Their looks are an `Appearance` with `Material` or `PhysicalMaterial`, and `ImageTexture`s in the file's folder (PNG, JPEG).
+- A body with a `geometry` collides with others that have one, unless its `mechane:body` says otherwise. Where that names a `model`, the
+  model is the shape.
+- Where a `ROUTE` leads a body's `position` or `orientation` to a `Transform`, that Transform is what is seen of the body; else its
+  `geometry` is.
+- All other shapes, in groups and `Transform`s, are scenery: they are seen and touched where they are, and do not collide with bodies. An
+  `Inline` of an X3D file in this file's folder is a part of it; one that a body names as its `model` is a mesh file like a `.glb`, in which
+  nodes have their `DEF` for a name.
+- A `CollisionCollection` gives the bodies of its `collidables` their `bounce` and, where its `appliedParameters` say so, the first of its
+  `frictionCoefficients`.
+- A file without `mechane:scenario` moves as X3D has it: without `autoDamp` nothing slows its bodies down.
+- VRML files (`.wrl`, `.x3dv`) are not read: `tovrmlx3d --encoding xml IN.wrl > OUT.x3d` makes X3D of them.
+)";
+
 constexpr std::string_view kNodesIntroduction = R"(
 ## Nodes of X3D
 
@@ -268,6 +295,9 @@ std::string reference_page() {
   page += reference_example();
   page += "```\n";
   page += kMeshIntroduction;
+  page += kShapesIntroduction;
+  page += reference_shapes();
+  page += kShapesRules;
   for (const Variation& variation : reference_variations())
     page += variation_text(variation);
   page += node_tables_text();

@@ -7,6 +7,20 @@
 namespace mechane::authoring {
 namespace {
 
+constexpr std::string_view kShapes = R"(<X3D version='4.0' profile='Full'>
+  <Scene>
+    <RigidBodyCollection gravity='0 -9.81 0'>
+      <RigidBody DEF='TABLE' containerField='bodies' fixed='true' position='0 0.7 0'>
+        <CollidableShape containerField='geometry'><Shape containerField='shape'><Box size='1 0.1 0.6'/></Shape></CollidableShape>
+      </RigidBody>
+      <RigidBody DEF='BALL' containerField='bodies' mass='0.4' position='0 1 0'>
+        <CollidableShape containerField='geometry'><Shape containerField='shape'><Sphere radius='0.06'/></Shape></CollidableShape>
+      </RigidBody>
+    </RigidBodyCollection>
+  </Scene>
+</X3D>
+)";
+
 constexpr std::string_view kExample = R"(<?xml version='1.0' encoding='UTF-8'?>
 <X3D profile='Interactive' version='4.0'>
   <head>
@@ -445,6 +459,10 @@ std::size_t end_of_set(const std::string& file, std::string_view path) {
 }
 
 }  // namespace
+
+std::string_view reference_shapes() {
+  return kShapes;
+}
 
 std::string reference_example() {
   return std::string(kExample);

@@ -24,6 +24,9 @@ struct Variation {
 /// The whole file with which the page begins: a scenario without problems, except that its mesh file does not exist.
 [[nodiscard]] std::string reference_example();
 
+/// A file without meshes and without our metadata, that runs as it is.
+[[nodiscard]] std::string_view reference_shapes();
+
 [[nodiscard]] std::span<const Variation> reference_variations();
 
 /// The example with one variation in it: also without problems.

@@ -30,7 +30,7 @@ struct Arguments {
 
 void add_options(CLI::App& app, Arguments& a) {
   collision_build::BuildConfig& config = a.options.config;
-  app.add_option("MESH", a.meshes, "mesh files: .glb, .gltf, .obj, .stl, .ply; in metres")->required();
+  app.add_option("MESH", a.meshes, "mesh files: .glb, .gltf, .obj, .stl, .ply, .x3d; in metres")->required();
   app.add_option("-o,--output", a.folder, "folder for the results, made when missing; without: beside each mesh");
   app.add_option("--scale", a.options.scale, "metres of one unit of the file: 0.001 for a model in millimetres")
       ->check(CLI::Range(1e-6, 1e6))

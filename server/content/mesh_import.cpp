@@ -41,7 +41,7 @@ Expected<void> check_file(const fs::path& file, const ImportLimits& limits) {
     return fail(ErrorCode::not_found, "the file does not exist", file.string(), "check the path");
   if (!fs::is_regular_file(status)) {
     return fail(ErrorCode::invalid_value, "this is a folder or a device, not a file", file.string(),
-                "name a mesh file: .glb, .gltf, .obj, .stl or .ply");
+                "name a mesh file: .glb, .gltf, .obj, .stl, .ply or .x3d");
   }
   const std::uintmax_t size = fs::file_size(file, code);
   if (code) return fail(ErrorCode::io_failure, code.message(), file.string(), "check the file's rights");

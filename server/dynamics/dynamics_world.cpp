@@ -120,6 +120,7 @@ struct Body {
   double mass_kg;        // simulated
   bool fixed;
   bool use_gravity;
+  Wrench drive;       // simulated
   bool moves = true;  // whether Bullet has its mass now
   GripBody grip;
   Frame frame;  // at the start of this step
@@ -132,6 +133,7 @@ struct Body {
         mass_kg(mass),
         fixed(from.fixed),
         use_gravity(from.use_gravity),
+        drive{from.effort_scale * from.drive.f, from.effort_scale * from.drive.t},
         grip(grip_body(from)) {
     bullet.setDamping(from.linear_damping, from.angular_damping);
   }
@@ -378,8 +380,8 @@ void DynamicsWorld::Impl::apply_forces(state::WorldState& state, double dt_s) {
     if (body.moves) {
       const Vec3 weight = body.use_gravity ? Vec3(body.mass_kg * gravity_W) : Vec3::Zero();
       const Vec3 arm = body.frame.X_WB.p - body.frame.p_WCm;
-      body.bullet.applyCentralForce(to_bt(weight + load.f));
-      body.bullet.applyTorque(to_bt(load.t + arm.cross(load.f)));
+      body.bullet.applyCentralForce(to_bt(weight + body.drive.f + load.f));
+      body.bullet.applyTorque(to_bt(body.drive.t + load.t + arm.cross(load.f)));
       body.bullet.applyDamping(dt_s);
     }
     load = {};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "server/base/assert.hpp"
+#include "server/x3d/node_fields.hpp"
 #include "server/x3d/values.hpp"
 
 namespace mechane::scenario {
@@ -81,11 +82,7 @@ Vec3 Attributes::vector(std::string_view name) const {
 
 Quat Attributes::rotation(std::string_view name) const {
   static_cast<void>(table_.key(name, ValueKind::rotation));
-  const std::vector<double> values = numbers(name);
-  MECHANE_ASSERT(values.size() == 4);
-  const Vec3 axis(values[0], values[1], values[2]);
-  if (values[3] == 0 || axis.norm() < 1e-9) return Quat::Identity();
-  return Quat(Eigen::AngleAxisd(values[3], axis.normalized()));
+  return x3d::rotation_of(numbers(name));
 }
 
 Mat3 Attributes::symmetric_matrix(std::string_view name) {

@@ -36,7 +36,7 @@ std::optional<Aside> aside_of(const x3d::Schema& x3d, const x3d::NodeType& type)
   if (is("X3DRigidJointNode"))
     return Aside{"not simulated", "use SingleAxisHingeJoint, SliderJoint or BallJoint, or an agent"};
   if (is("X3DNBodyCollidableNode") || is("X3DNBodyCollisionSpaceNode") || is("CollisionCollection"))
-    return Aside{"not simulated", "bodies are touched by their meshes: name a model in mechane:body"};
+    return Aside{"not simulated", "put a CollidableShape into the geometry of a RigidBody"};
   if (is("CollisionSensor") || type.name == "ROUTE" || is("X3DSensorNode") || is("X3DScriptNode") ||
       is("X3DInterpolatorNode") || is("X3DFollowerNode") || is("X3DTriggerNode") || is("X3DSequencerNode"))
     return Aside{"not simulated", "let agents, quantities and the triggers of steps do it"};
@@ -44,9 +44,11 @@ std::optional<Aside> aside_of(const x3d::Schema& x3d, const x3d::NodeType& type)
     return Aside{"not played", "name the sound of a step by audio.<language> in its text"};
   if (type.name == "Transform" || type.name == "Group" || type.name == "StaticGroup" || type.name == "Switch")
     return Aside{"not applied to what it holds, and its shapes are neither drawn nor touched",
-                 "give bodies their own position, and shapes by a mesh file"};
+                 "put it under the Scene or one of its groups, and see that it is visible"};
   if (is("X3DShapeNode") || is("X3DGeometryNode"))
-    return Aside{"neither drawn nor touched", "put shapes into a mesh file, and name it by an Inline"};
+    return Aside{"neither drawn nor touched",
+                 "use a Box, Sphere, Cone, Cylinder, IndexedFaceSet, IndexedTriangleSet, TriangleSet, Extrusion or "
+                 "ElevationGrid, or put the shape into a mesh file"};
   if (type.is_statement() || type.name.starts_with("Metadata")) return std::nullopt;
   if (is("X3DBindableNode") || is("X3DLightNode") || type.name == "LocalFog" || is("X3DInfoNode")) return std::nullopt;
   return Aside{"not simulated", "other X3D readers may show it"};
@@ -55,7 +57,7 @@ std::optional<Aside> aside_of(const x3d::Schema& x3d, const x3d::NodeType& type)
 class OwnNodeChecker {
  public:
   explicit OwnNodeChecker(Compilation& c)
-      : document_(c.document), problems_(c.problems), x3d_(x3d::Schema::standard()) {}
+      : document_(c.document), shapes_(c.shapes), problems_(c.problems), x3d_(x3d::Schema::standard()) {}
 
   void run() {
     struct Open {
@@ -106,9 +108,12 @@ class OwnNodeChecker {
 
   /// Notes a node that does nothing here. True where it is one.
   bool note_aside(x3d::NodeId id, const x3d::NodeType& type, bool quiet) {
+    if (shapes_.used().contains(document_.resolve(id))) return false;
     const std::optional<Aside> aside = aside_of(x3d_, type);
     if (!aside) return false;
-    if (quiet || document_[id].used) return true;
+    if (document_[id].used) return true;
+    problems_.leave_out(1);
+    if (quiet) return true;
     Asides& of_type = asides_[type.name];
     if (of_type.count++ == 0) of_type.first = id;
     of_type.aside = *aside;
@@ -130,6 +135,7 @@ class OwnNodeChecker {
   };
 
   const x3d::Document& document_;
+  const x3d::ShapeTree& shapes_;
   x3d::Problems& problems_;
   const x3d::Schema& x3d_;
   std::map<std::string_view, Asides> asides_;

@@ -26,14 +26,15 @@ std::vector<x3d::Problem> sorted(const x3d::Problems& problems) {
 
 struct Checked {
   std::vector<x3d::Problem> problems;
-  std::string id;  ///< empty where the file could not be compiled
+  std::string id;            ///< empty where the file could not be compiled
+  std::size_t left_out = 0;  ///< nodes that are not used
 };
 
 Checked check_one(const fs::path& file) {
   x3d::Problems problems(file.string());
   MeshFinder finder;
   const auto world = read_scenario(file, finder, problems);
-  return {sorted(problems), world ? world->id : std::string()};
+  return {sorted(problems), world ? world->id : std::string(), problems.left_out()};
 }
 
 /// For a folder in place of a scenario: the remedy names the scenarios in it.
@@ -90,6 +91,7 @@ int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat
   }
   std::vector<x3d::Problem> all;
   std::map<std::string, std::string> ids;
+  std::size_t left_out = 0;
   for (const std::string& file : files) {
     std::error_code code;
     if (fs::is_directory(file, code)) {
@@ -98,6 +100,7 @@ int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat
     }
     Checked checked = check_one(file);
     check_ids(file, checked, ids);
+    left_out += checked.left_out;
     all.insert(all.end(), checked.problems.begin(), checked.problems.end());
   }
   const auto of = [&](x3d::Severity severity) {
@@ -111,8 +114,9 @@ int run_check(std::span<const std::string> files, std::ostream& out, CheckFormat
     for (const x3d::Problem& problem : all)
       out << to_string(problem) << "\n";
     const std::size_t notes = of(x3d::Severity::note);
-    out << fmt::format("{}: {}, {}{}\n", count(files.size(), "file"), count(errors, "error"),
-                       count(of(x3d::Severity::warning), "warning"), notes == 0 ? "" : ", " + count(notes, "note"));
+    out << fmt::format("{}: {}, {}{}{}\n", count(files.size(), "file"), count(errors, "error"),
+                       count(of(x3d::Severity::warning), "warning"), notes == 0 ? "" : ", " + count(notes, "note"),
+                       left_out == 0 ? "" : ", " + count(left_out, "node") + " not used");
   }
   return errors > 0 ? 1 : 0;
 }

@@ -17,6 +17,7 @@
 #include "server/state/description.hpp"
 #include "server/x3d/document.hpp"
 #include "server/x3d/metadata.hpp"
+#include "server/x3d/shape_tree.hpp"
 
 namespace mechane::scenario {
 
@@ -34,6 +35,7 @@ struct Compilation {
   const x3d::Document& document;
   ObjectLoader& loader;
   x3d::Problems& problems;
+  x3d::ShapeTree shapes;  ///< of the document
   state::WorldDescription world;
   std::optional<x3d::Metadata> scenario;            ///< the tree of the WorldInfo
   std::map<std::string, std::string> model_hashes;  ///< by url as written
@@ -53,6 +55,7 @@ struct Compilation {
 void check_nodes(Compilation& c);         // elements against X3D's schema
 void compile_scenario(Compilation& c);    // id, languages, title, units
 void compile_bodies(Compilation& c);      // RigidBodyCollection, RigidBody, mechane:body, mechane:haptic
+void compile_scenery(Compilation& c);     // shapes of X3D that belong to no body
 void compile_joints(Compilation& c);      // X3D's joints
 void compile_components(Compilation& c);  // mechane:agent on nodes, agents and machines of the tree
 void compile_quantities(Compilation& c);
@@ -78,6 +81,11 @@ void lint_touch(Compilation& c);
 
 /// Whether a list of agents has this one.
 [[nodiscard]] bool names(const std::vector<AgentId>& list, AgentId agent);
+
+/// Whether the file is X3D without our metadata: then it is taken as X3D means it.
+[[nodiscard]] inline bool is_plain(const Compilation& c) {
+  return !c.scenario;
+}
 
 /// What a step changes of a body; null where it changes nothing.
 [[nodiscard]] const state::BodyOverride* override_of(const state::StepDescription& step, BodyId body);

@@ -2,13 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "server/base/suggestion.hpp"
+#include "server/content/content_hash.hpp"
 #include "server/scenario/compilation.hpp"
 #include "server/state/surface_keys.hpp"
+#include "server/x3d/node_fields.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -49,48 +52,120 @@ std::string model_url(Compilation& c, const Fields& fields) {
   return c.model_hashes[url].empty() ? std::string() : url;
 }
 
-/// Returns whether hands can touch the body.
-bool read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::BodyDescription& body) {
-  const auto set = x3d::read_metadata(c.document, id, "mechane:body", c.problems);
-  if (!set) {
-    attributes.warning(ErrorCode::missing, "the body has no 'mechane:body': it is neither drawn nor touched",
-                       "name its model and node there");
-    return false;
+/// The name of this file, as a mesh file that holds the shapes in it.
+std::string own_url(Compilation& c) {
+  const std::string url = c.document.path().filename().string();
+  if (c.model_hashes.contains(url)) return url;
+  c.model_hashes[url] = content::content_hash(std::as_bytes(std::span(c.document.source())));
+  for (const x3d::NodeId id : c.document.elements("Inline")) {
+    const std::string inlined = x3d::inlined_x3d(c.document, id);
+    if (inlined.empty() || !c.shapes.used().contains(id) || c.model_hashes.contains(inlined)) continue;
+    // That it is missing is told when its shapes are asked for.
+    const auto hash = c.loader.content_hash(c.document.path().parent_path() / inlined);
+    if (hash) c.model_hashes[inlined] = *hash;
   }
-  const Fields fields(&*set, body_table(), "mechane:body of " + body.name, c.problems);
+  return url;
+}
+
+/// The nodes of a mesh file that a body is touched and drawn as.
+struct ShapeNodes {
+  std::string url;
+  std::string touched;
+  std::string drawn;
+};
+
+/// Where the body's shape is; none after a problem.
+std::optional<ShapeNodes> find_shape(Compilation& c, x3d::NodeId id, const Fields& fields, const std::string& name) {
+  if (fields.given("model")) {
+    const std::string url = model_url(c, fields);
+    const std::string node = fields.given("node") ? fields.string("node") : name;
+    return url.empty() ? std::nullopt : std::optional<ShapeNodes>({url, node, node});
+  }
+  if (c.shapes.has_shape(id)) {
+    const x3d::NodeId picture = c.shapes.picture_of(id);
+    return ShapeNodes{own_url(c), name, picture ? x3d::node_name(c.document, picture) : name};
+  }
+  if (!fields.has_faults())
+    c.problems.error(ErrorCode::missing, fields.line("model"), fields.where(), "the body has no shape",
+                     "write the key model, or put a CollidableShape into the body's geometry");
+  return std::nullopt;
+}
+
+/// Reports that a node of a mesh file cannot be had.
+void refuse_node(Compilation& c, const ShapeNodes& shape, const Place& at, const std::string& node,
+                 const Error& error) {
+  if (shape.url != c.document.path().filename().string()) {
+    c.problems.error(error.code, at.line, at.text, fmt::format("node '{}' of {}: {}", node, shape.url, error.what),
+                     error.remedy);
+    return;
+  }
+  // The fault is in this file: at its own line.
+  const std::size_t element = error.where.rfind("line ");
+  const std::string where = element == std::string::npos ? at.text : error.where.substr(element);
+  c.problems.error(error.code, error.line > 0 ? error.line : at.line, where, error.what, error.remedy);
+}
+
+/// Returns the node that hands touch; empty: they cannot touch the body.
+std::string read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::BodyDescription& body) {
+  const auto set = x3d::read_metadata(c.document, id, "mechane:body", c.problems);
+  const bool own = c.shapes.has_shape(id);
+  if (!set && !own) {
+    attributes.warning(ErrorCode::missing, "the body has no shape: it is neither drawn nor touched",
+                       "put a CollidableShape into its geometry, or name a model and node in 'mechane:body'");
+    return {};
+  }
+  const Fields fields(set ? &*set : nullptr, body_table(), "mechane:body of " + body.name, c.problems);
   body.title = read_texts(c, fields.set("text"), fields.where() + ", text", "title")["title"];
-  const std::string url = model_url(c, fields);
-  if (url.empty()) return false;
-  body.mesh = {url, c.model_hashes[url], fields.given("node") ? fields.string("node") : body.name};
-  body.collides = fields.boolean("collides");
-  body.restitution = fields.number("restitution");
-  const std::filesystem::path file = c.document.path().parent_path() / url;
-  const auto refuse_node = [&](const Error& error) {
-    c.problems.error(error.code, fields.line("node"), fields.where(),
-                     fmt::format("node '{}' of {}: {}", body.mesh.node, url, error.what), error.remedy);
-  };
-  if (!fields.boolean("touchable")) {
-    if (const auto found = c.loader.find_node(file, body.mesh.node); !found) refuse_node(found.error());
-    if (!body.collides) return false;
+  const auto shape = find_shape(c, id, fields, body.name);
+  if (!shape) return {};
+  body.mesh = {shape->url, c.model_hashes[shape->url], shape->drawn};
+  const bool touchable = !fields.given("touchable") || fields.boolean("touchable");
+  body.collides = fields.given("collides") ? fields.boolean("collides") : own && touchable && !fields.given("model");
+  if (fields.given("restitution")) body.restitution = fields.number("restitution");
+  const std::filesystem::path file = c.document.path().parent_path() / shape->url;
+  const Place at =
+      set ? Place(fields.where(), fields.line("node")) : Place(c.document.describe(id), c.document[id].line);
+  if (!touchable || shape->drawn != shape->touched) {
+    if (const auto found = c.loader.find_node(file, shape->drawn); !found)
+      refuse_node(c, *shape, at, shape->drawn, found.error());
+  }
+  if (!touchable) {
+    if (!body.collides) return {};
     c.problems.error(ErrorCode::conflict, fields.line("collides"), fields.where(),
                      "collides is true, but touchable is false",
                      "remove touchable false: touch and collisions use the same shape");
-    return false;
+    return {};
   }
   const auto choice = geometry::solid_choice_of(fields.string("solid"));
   if (!choice) {
     c.problems.error(ErrorCode::invalid_value, fields.line("solid"), fields.where(),
                      fmt::format("solid is '{}'", fields.string("solid")),
                      "write auto, closed, or sheet with a thickness from 0.0001 to 0.1 m: sheet 0.001");
-    return true;
+    return shape->touched;
   }
-  auto object = c.loader.load(file, body.mesh.node, *choice);
+  auto object = c.loader.load(file, shape->touched, *choice);
   if (object) {
     body.object = std::move(*object);
   } else {
-    refuse_node(object.error());
+    refuse_node(c, *shape, at, shape->touched, object.error());
   }
-  return true;
+  return shape->touched;
+}
+
+/// What a CollisionCollection says of the bodies in it. X3D has a coefficient for each of two directions along a surface; ours has no
+/// direction, and takes the first.
+void read_collection(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
+  const x3d::NodeId collection = c.shapes.collection_of(id);
+  if (!collection) return;
+  const x3d::NodeFields fields(c.document, collection);
+  const std::vector<std::string> applied = fields.strings("appliedParameters");
+  const auto applies = [&](std::string_view word) {
+    return std::any_of(applied.begin(), applied.end(), [&](const std::string& one) { return one.starts_with(word); });
+  };
+  if (applied.empty() || applies("BOUNCE")) body.restitution = fields.number("bounce");
+  if (!applies("FRICTION_COEFFICIENT")) return;
+  body.haptic.static_friction = fields.numbers("frictionCoefficients").front();
+  body.haptic.dynamic_friction = body.haptic.static_friction;
 }
 
 void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
@@ -98,7 +173,7 @@ void read_haptic(Compilation& c, x3d::NodeId id, state::BodyDescription& body) {
   const Fields fields(set ? &*set : nullptr, haptic_table(), "mechane:haptic of " + body.name, c.problems);
   std::vector<state::SurfaceFault> faults;
   body.haptic = state::changed_surface(
-      {}, [&](std::string_view key) { return fields.numbers(key); }, faults);
+      body.haptic, [&](std::string_view key) { return fields.numbers(key); }, faults);
   body.effort_scale = fields.number("effortScale");
   body.graspable = fields.boolean("graspable");
   if (fields.has_faults()) return;
@@ -195,27 +270,44 @@ void complete_inertia(Attributes& attributes, const Expected<std::optional<Solid
                      "write it, or give the body a closed mesh");
 }
 
-void compare_with_mesh(Compilation& c, Attributes& attributes, state::BodyDescription& body) {
+void compare_with_mesh(Compilation& c, Attributes& attributes, const std::string& touched,
+                       state::BodyDescription& body) {
   if (body.fixed || body.mass_kg <= 0) return;
   const bool has_mesh = !body.mesh.uri.empty();
   const bool missing = !attributes.given("inertia");
   Expected<std::optional<Solid>> solid = std::nullopt;
   if (has_mesh && (missing || c.loader.has_meshes_at_hand()))
-    solid = c.loader.solid(c.document.path().parent_path() / body.mesh.uri, body.mesh.node);
+    solid = c.loader.solid(c.document.path().parent_path() / body.mesh.uri, touched.empty() ? body.mesh.node : touched);
   check_mass(attributes, body, solid ? *solid : std::nullopt);
   if (missing) complete_inertia(attributes, solid, has_mesh, body);
 }
 
-double damping(Attributes& attributes, std::string_view name, double otherwise) {
-  // X3D applies the factors only with autoDamp; without it a body has the small damping of air.
-  return attributes.boolean("autoDamp") && attributes.given(name) ? attributes.number(name) : otherwise;
+double damping(const Compilation& c, Attributes& attributes, std::string_view name, double otherwise) {
+  // X3D applies the factors only with autoDamp; without it a body has the small damping of air, but none in plain X3D.
+  if (attributes.boolean("autoDamp") && (attributes.given(name) || is_plain(c))) return attributes.number(name);
+  return is_plain(c) ? 0 : otherwise;
+}
+
+Vec3 sum_of(const std::vector<double>& vectors) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i + 2 < vectors.size(); i += 3)
+    sum += Vec3(vectors[i], vectors[i + 1], vectors[i + 2]);
+  return sum;
+}
+
+/// How it moves at the start, and what drives it.
+void read_motion(Compilation& c, x3d::NodeId id, const Attributes& attributes, state::BodyDescription& body) {
+  body.V_WB.w = attributes.vector("angularVelocity");
+  body.V_WB.v = attributes.vector("linearVelocity") - body.V_WB.w.cross(body.X_WB.R * body.p_BCm);
+  const x3d::NodeFields fields(c.document, id);
+  body.drive = {sum_of(fields.numbers("forces")), sum_of(fields.numbers("torques"))};
 }
 
 void compile_body(Compilation& c, x3d::NodeId id) {
   Attributes attributes(c.document, id, c.problems);
   state::BodyDescription body;
-  body.name = attributes.text("DEF");
-  if (body.name.empty()) {
+  body.name = x3d::node_name(c.document, id);
+  if (!is_plain(c) && attributes.text("DEF").empty()) {
     attributes.error(ErrorCode::missing, "a RigidBody has no DEF",
                      "give it a name: everything refers to bodies by name");
     return;
@@ -224,17 +316,39 @@ void compile_body(Compilation& c, x3d::NodeId id) {
   body.use_gravity = attributes.boolean("useGlobalGravity");
   body.X_WB = {attributes.vector("position"), attributes.rotation("orientation")};
   body.visible = attributes.boolean("visible");
-  body.linear_damping = damping(attributes, "linearDampingFactor", body.linear_damping);
-  body.angular_damping = damping(attributes, "angularDampingFactor", body.angular_damping);
+  body.linear_damping = damping(c, attributes, "linearDampingFactor", body.linear_damping);
+  body.angular_damping = damping(c, attributes, "angularDampingFactor", body.angular_damping);
   read_mass(attributes, body);
+  if (!body.fixed) read_motion(c, id, attributes, body);
+  read_collection(c, id, body);
   read_haptic(c, id, body);
-  c.touchable.push_back(read_shape(c, id, attributes, body));
-  compare_with_mesh(c, attributes, body);
+  const std::string touched = read_shape(c, id, attributes, body);
+  c.touchable.push_back(!touched.empty());
+  compare_with_mesh(c, attributes, touched, body);
   c.world.bodies.push_back(std::move(body));
   c.body_lines.push_back(c.document[id].line);
 }
 
 }  // namespace
+
+void compile_scenery(Compilation& c) {
+  if (!c.shapes.has_scenery() || c.world.find_body(x3d::kScenery)) return;
+  const x3d::NodeId scene = c.document.scene();
+  state::BodyDescription body;
+  body.name = x3d::kScenery;
+  body.fixed = true;
+  const ShapeNodes shape{own_url(c), body.name, body.name};
+  body.mesh = {shape.url, c.model_hashes[shape.url], shape.drawn};
+  auto object = c.loader.load(c.document.path().parent_path() / shape.url, shape.touched, {});
+  if (object) {
+    body.object = std::move(*object);
+  } else {
+    refuse_node(c, shape, {c.document.describe(scene), c.document[scene].line}, shape.touched, object.error());
+  }
+  c.world.bodies.push_back(std::move(body));
+  c.body_lines.push_back(c.document[scene].line);
+  c.touchable.push_back(true);
+}
 
 void compile_bodies(Compilation& c) {
   const std::vector<x3d::NodeId> collections = c.document.elements("RigidBodyCollection");

@@ -1,5 +1,6 @@
 // X3D's joints. A joint is at position 0 in its bodies' poses at the start.
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,8 +17,7 @@ constexpr double kNoStop = kPi - 1e-3;
 BodyId body_of(Compilation& c, x3d::NodeId joint, std::string_view field, bool& good) {
   for (const x3d::NodeId child : c.document.child_elements(joint)) {
     if (c.document[child].name != "RigidBody" || c.document.container_field(child, "body1") != field) continue;
-    const std::string* name = c.document[c.document.resolve(child)].attribute("DEF");
-    const BodyId body = name != nullptr ? c.world.find_body(*name) : BodyId::none();
+    const BodyId body = c.world.find_body(x3d::node_name(c.document, c.document.resolve(child)));
     if (body) return body;
     Attributes(c.document, child, c.problems)
         .error(ErrorCode::unknown_name, fmt::format("{} is not a body of this world", field),
@@ -27,8 +27,11 @@ BodyId body_of(Compilation& c, x3d::NodeId joint, std::string_view field, bool& 
   return BodyId::none();
 }
 
-bool read_bodies(Compilation& c, x3d::NodeId id, Attributes& attributes, state::JointDescription& joint) {
+/// Reads the joint's bodies. `swapped`: whether body1 and body2 changed places.
+bool read_bodies(Compilation& c, x3d::NodeId id, Attributes& attributes, state::JointDescription& joint,
+                 bool& swapped) {
   bool good = true;
+  swapped = false;
   joint.body1 = body_of(c, id, "body1", good);
   joint.body2 = body_of(c, id, "body2", good);
   if (!good) return false;
@@ -48,9 +51,14 @@ bool read_bodies(Compilation& c, x3d::NodeId id, Attributes& attributes, state::
       attributes.error(ErrorCode::conflict, "the joint ties two fixed bodies", "let one of them move");
       return false;
     }
-    attributes.error(ErrorCode::conflict, "body2 is fixed, but it is the side that moves",
-                     "write the fixed body as body1");
-    return false;
+    if (!is_plain(c)) {
+      attributes.error(ErrorCode::conflict, "body2 is fixed, but it is the side that moves",
+                       "write the fixed body as body1");
+      return false;
+    }
+    // To X3D both sides are equal. Angles and distances then count the other way.
+    std::swap(joint.body1, joint.body2);
+    swapped = true;
   }
   return true;
 }
@@ -100,8 +108,11 @@ void compile_joint(Compilation& c, x3d::NodeId id, state::JointKind kind) {
   joint.name = attributes.text("DEF");
   if (joint.name.empty()) joint.name = fmt::format("{}-line-{}", c.document[id].name, attributes.line());
   joint.kind = kind;
-  if (!read_bodies(c, id, attributes, joint)) return;
+  bool swapped = false;
+  if (!read_bodies(c, id, attributes, joint, swapped)) return;
   const Pose X_WJ = read_geometry(c, attributes, joint);
+  if (swapped && joint.min_position <= joint.max_position)
+    joint.min_position = -std::exchange(joint.max_position, -joint.min_position);
   const Pose X_WB1 = joint.body1 ? c.world.bodies[joint.body1.index()].X_WB : Pose{};
   joint.X_B1J = X_WB1.inverse() * X_WJ;
   joint.X_B2J = c.world.bodies[joint.body2.index()].X_WB.inverse() * X_WJ;

@@ -189,6 +189,7 @@ void compile_all(Compilation& c) {
   check_nodes(c);
   compile_scenario(c);
   compile_bodies(c);
+  compile_scenery(c);
   compile_joints(c);
   compile_components(c);
   compile_quantities(c);
@@ -218,7 +219,7 @@ Expected<std::string> hash_file(const std::filesystem::path& file) {
 
 Expected<state::WorldDescription> compile(const x3d::Document& document, ObjectLoader& loader,
                                           x3d::Problems& problems) {
-  Compilation c{document, loader, problems, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Compilation c{document, loader, problems, x3d::ShapeTree(document), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   compile_all(c);
   if (problems.has_errors()) return tl::unexpected(problems.first_error());
   return std::move(c.world);

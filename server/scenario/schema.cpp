@@ -455,9 +455,8 @@ constexpr Table kHaptic{"mechane:haptic", "on a RigidBody: what touch feels", kH
 
 constexpr Key kBodyKeys[] = {
     {.name = "model",
-     .summary = "DEF of the Inline whose file holds the shape",
+     .summary = "DEF of the Inline whose file holds the shape; left out: the shape is the body's `geometry`",
      .example = "\"MODEL\"",
-     .required = true,
      .names = Names::model},
     {.name = "node", .summary = "the node in that file; else the one named as the body", .example = "\"INNER\""},
     {.name = "touchable", .kind = boolean, .summary = "false: drawn only", .default_number = 1},
@@ -468,7 +467,8 @@ constexpr Key kBodyKeys[] = {
      .default_text = "auto"},
     {.name = "collides",
      .kind = boolean,
-     .summary = "with every other body that does, but for those joined or snapped to it"},
+     .summary = "with every other body that does, but for those joined or snapped to it",
+     .default_text = "false; true with a `geometry`"},
     {.name = "restitution",
      .kind = number,
      .summary = "share of its speed that a collision gives back",

@@ -47,7 +47,9 @@ struct BodyDescription {
   double effort_scale = 1;                ///< what a visitor's hand has to lift of it (reference: caption says so)
   double linear_damping = 0.02;           ///< share of velocity lost in a second, as Bullet's
   double angular_damping = 0.02;
-  Pose X_WB;  ///< at the start
+  Pose X_WB;     ///< at the start
+  Twist V_WB;    ///< of the body's origin, at the start
+  Wrench drive;  ///< acts on the centre of mass all the time, in W, unscaled as the mass is
   HapticMaterial haptic;
   std::shared_ptr<const collision::Object> object;  ///< null: cannot be touched
   MeshReference mesh;

@@ -14,6 +14,7 @@ WorldState::WorldState(const WorldDescription& description)
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const BodyDescription& from = description.bodies[i];
     bodies[i].X_WB = from.X_WB;
+    bodies[i].V_WB = from.V_WB;
     bodies[i].movable = !from.fixed;
     bodies[i].visible = from.visible;
     bodies[i].graspable = from.graspable;

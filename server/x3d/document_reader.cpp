@@ -82,6 +82,10 @@ class DocumentBuilder {
       return refuse(ErrorCode::damaged, lines_.at(static_cast<std::ptrdiff_t>(*bad)), {}, "the text is not UTF-8",
                     "save the file as UTF-8");
     }
+    if (bytes_.starts_with("#VRML") || bytes_.starts_with("#X3D V")) {
+      return refuse(ErrorCode::not_supported, 1, {}, "the file is in the encoding of VRML, not in XML",
+                    "convert it: tovrmlx3d --encoding xml FILE > FILE.x3d");
+    }
     // An element has one or two '<'. Those in comments are counted too, which matters only where a file is nearly too large.
     if (static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.end(), '<')) > 2 * limits_.nodes + 64)
       return refuse_node_count(0);

@@ -38,6 +38,10 @@ class Problems {
   /// For something valid that Mechane ignores: ErrorCode::not_supported.
   void note(int line, std::string node, std::string what, std::string remedy);
 
+  /// Counts elements that Mechane makes nothing of, whether there is a note for each or not.
+  void leave_out(std::size_t nodes) { left_out_ += nodes; }
+
+  [[nodiscard]] std::size_t left_out() const { return left_out_; }
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   /// True once no more are kept, so that a search for more may stop: a broken file can have one fault a line.
   [[nodiscard]] bool full() const { return problems_.size() >= kMost; }
@@ -54,6 +58,7 @@ class Problems {
   std::string file_;
   std::vector<Problem> problems_;
   std::size_t errors_ = 0;
+  std::size_t left_out_ = 0;
 };
 
 /// "note", "warning" or "error".

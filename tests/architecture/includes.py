@@ -23,9 +23,9 @@ ARROWS = {
     "server/machines": ["server/state"],
     "server/agents": ["server/state"],
     "server/world": ["server/dynamics", "server/haptics", "server/machines", "server/agents", "server/realtime"],
-    "server/content": ["server/collision_build", "server/database"],
+    "server/content": ["server/collision_build", "server/database", "server/x3d"],
     "server/x3d": ["server/base"],
-    "server/scenario": ["server/x3d", "server/content", "server/agents", "server/machines"],  # agents and machines: their parameters' tables
+    "server/scenario": ["server/content", "server/agents", "server/machines"],  # agents and machines: their parameters' tables
     "server/record": ["server/state", "server/realtime"],
     "server/visits": ["server/state", "server/realtime", "server/database"],
     "server/transport": ["proto", "server/state", "server/realtime"],

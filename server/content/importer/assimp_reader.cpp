@@ -142,7 +142,7 @@ Expected<ImportedScene> read_with_assimp(const std::filesystem::path& file, cons
   const std::string extension = lower_case(file.extension().string());
   if (std::find(kRead.begin(), kRead.end(), extension) == kRead.end()) {
     return fail(ErrorCode::not_supported, fmt::format("files of the format '{}' cannot be read", extension), {},
-                "export the model as .glb, .gltf, .obj, .stl or .ply");
+                "export the model as .glb, .gltf, .obj, .stl or .ply, or write it as .x3d");
   }
   if (extension == ".glb" || extension == ".gltf") {
     if (auto counts = check_gltf_counts(file, limits); !counts) return tl::unexpected<Error>(counts.error());

@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "server/base/utf8.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/content/importer/assimp_reader.hpp"
 #include "server/content/importer/confinement.hpp"
+#include "server/content/importer/x3d_reader.hpp"
 #include "server/content/scene_check.hpp"
 #include "server/content/scene_codec.hpp"
 
@@ -19,7 +21,8 @@ namespace {
 
 Expected<ImportedScene> read_checked(const std::filesystem::path& file, const ImportLimits& limits) {
   try {
-    Expected<ImportedScene> scene = read_with_assimp(file, limits);
+    const bool x3d = lower_case(file.extension().string()) == ".x3d";
+    Expected<ImportedScene> scene = x3d ? read_x3d(file, limits) : read_with_assimp(file, limits);
     if (!scene) return scene;
     if (auto good = check_scene(*scene, limits); !good) return tl::unexpected<Error>(good.error());
     return scene;

@@ -3,26 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <map>
-#include <span>
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include "server/base/whole_file.hpp"
+#include "server/content/importer/image_file.hpp"
 
 namespace mechane::content {
 namespace {
-
-std::optional<TextureEncoding> encoding_of(std::span<const std::byte> bytes) {
-  constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G'};
-  constexpr unsigned char kJpeg[] = {0xFF, 0xD8, 0xFF};
-  if (bytes.size() > sizeof kPng && std::memcmp(bytes.data(), kPng, sizeof kPng) == 0) return TextureEncoding::png;
-  if (bytes.size() > sizeof kJpeg && std::memcmp(bytes.data(), kJpeg, sizeof kJpeg) == 0) return TextureEncoding::jpeg;
-  return std::nullopt;
-}
 
 class MaterialReader {
  public:
@@ -114,11 +104,11 @@ class MaterialReader {
 
   Expected<ImportedTexture> load(const aiString& path) const {
     const auto [embedded, index] = from_.GetEmbeddedTextureAndIndex(path.C_Str());
-    if (embedded == nullptr) return load_file(path.C_Str());
+    if (embedded == nullptr) return texture_file(io_, path.C_Str());
     const std::string name =
         embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : fmt::format("image {}", index);
     if (embedded->mHeight > 0) return raw(*embedded, name);
-    return encoded(name, {reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth});
+    return encoded_texture(name, {reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth});
   }
 
   static ImportedTexture raw(const aiTexture& from, const std::string& name) {
@@ -129,27 +119,6 @@ class MaterialReader {
         to.bytes.push_back(std::byte{c});
     }
     return to;
-  }
-
-  Expected<ImportedTexture> load_file(std::string name) const {
-    std::replace(name.begin(), name.end(), '\\', '/');
-    const auto file = io_.allowed(name);
-    if (!file) {
-      return fail(ErrorCode::not_found, "the image is not in the model's folder", "texture " + name,
-                  "put it there, or export the model with its images inside (.glb)");
-    }
-    const auto bytes = read_whole(*file, std::numeric_limits<std::uintmax_t>::max());  // allowed() has a limit
-    if (!bytes) return tl::unexpected(bytes.error().in("texture " + name));
-    return encoded(name, *bytes);
-  }
-
-  static Expected<ImportedTexture> encoded(const std::string& name, std::span<const std::byte> bytes) {
-    const auto encoding = encoding_of(bytes);
-    if (!encoding) {
-      return fail(ErrorCode::not_supported, "the image is neither PNG nor JPEG", "texture " + name,
-                  "export the images as PNG or JPEG");
-    }
-    return ImportedTexture{name, *encoding, 0, 0, {bytes.begin(), bytes.end()}};
   }
 
   const aiScene& from_;

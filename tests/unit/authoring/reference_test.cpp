@@ -59,6 +59,19 @@ state::WorldDescription read_variation(std::string_view title) {
   return {};
 }
 
+TEST(Reference, TheExampleWithoutMeshesIsWithoutFault) {
+  x3d::Problems problems("shapes.x3d");
+  const auto document = x3d::read_document(reference_shapes(), "shapes.x3d", problems);
+  ASSERT_TRUE(document) << document.error().to_string();
+  FakeLoader loader;
+  const auto world = scenario::compile(*document, loader, problems);
+  ASSERT_TRUE(world) << world.error().to_string();
+  ASSERT_EQ(world->bodies.size(), 2u);
+  EXPECT_TRUE(world->bodies[1].object && world->bodies[1].collides);
+  EXPECT_EQ(problems.left_out(), 0u);
+  EXPECT_NE(reference_page().find(reference_shapes()), std::string::npos);
+}
+
 TEST(Reference, EachVariationIsWithoutFaultAndOnThePage) {
   for (const Variation& variation : reference_variations()) {
     EXPECT_FALSE(read_variation(variation.title).bodies.empty());

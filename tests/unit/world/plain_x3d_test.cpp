@@ -1,0 +1,174 @@
+// Standard X3D files as they run: shapes from the file, built for touch, moved by the whole tick; against closed forms, within 1 %.
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "server/content/object_store.hpp"
+#include "server/scenario/compiler.hpp"
+#include "server/world/step.hpp"
+#include "tests/support/crank_world.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_files.hpp"
+
+namespace mechane::world {
+namespace {
+
+std::string box_body(const std::string& def, const std::string& fields, const std::string& geometry) {
+  return fmt::format(
+      "<RigidBody DEF='{0}' containerField='bodies' {1}><CollidableShape DEF='C_{0}' containerField='geometry'>"
+      "<Shape containerField='shape'>{2}</Shape></CollidableShape></RigidBody>\n",
+      def, fields, geometry);
+}
+
+class Loader final : public scenario::ObjectLoader {
+ public:
+  explicit Loader(const std::filesystem::path& cache) : store_(cache) {}
+  Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
+                                                          const std::string& node) override {
+    return store_.load(file, node, collision_build::BuildConfig{});
+  }
+  Expected<std::string> content_hash(const std::filesystem::path& file) override { return scenario::hash_file(file); }
+
+ private:
+  content::ObjectStore store_;
+};
+
+/// A file's world, from reading it to its ticks.
+class PlainWorld {
+ public:
+  explicit PlainWorld(const std::string& scene) {
+    const auto file =
+        folder_.write("plain.x3d", "<X3D version='4.0' profile='Full'><Scene>" + scene + "</Scene></X3D>");
+    Loader loader(folder_.path() / "cache");
+    x3d::Problems problems("plain.x3d");
+    auto description = scenario::read_scenario(file, loader, problems);
+    if (!description) throw std::runtime_error(description.error().to_string());
+    WorldConfig config;
+    config.hand = test::shared_hand();
+    auto world = World::create(std::make_shared<const state::WorldDescription>(std::move(*description)), config);
+    if (!world) throw std::runtime_error(world.error().to_string());
+    world_ = std::move(*world);
+  }
+
+  void run(double seconds, const std::function<void()>& look = {}) {
+    for (long ticks = std::lround(seconds / kTickSeconds); ticks > 0; --ticks) {
+      world::step(*world_, {}, publisher_, timer_);
+      time_s_ += kTickSeconds;
+      if (look) look();
+    }
+  }
+  [[nodiscard]] double time_s() const { return time_s_; }
+  [[nodiscard]] const state::BodyState& body(const std::string& name) const {
+    return world_->state[world_->description->find_body(name)];
+  }
+
+ private:
+  test::ScratchFolder folder_;
+  std::unique_ptr<World> world_;
+  SystemClock clock_;
+  PhaseTimer timer_{clock_};
+  NoPublisher publisher_;
+  double time_s_ = 0;
+};
+
+constexpr const char* kBox = "<Box size='0.2 0.2 0.2'/>";
+
+TEST(PlainX3dWorld, FallsSlowsDownAndIsDriven) {
+  PlainWorld world(
+      "<RigidBodyCollection>" + box_body("FALLS", "position='0 500 0'", kBox) +
+      box_body("SLOWS",
+               "position='2 0 0' useGlobalGravity='false' linearVelocity='0 0 3' autoDamp='true' "
+               "linearDampingFactor='0.4'",
+               kBox) +
+      box_body("PUSHED", "position='4 0 0' useGlobalGravity='false' mass='2' forces='0 0 3 0 0 1'", kBox) +
+      box_body("SPUN", "position='6 0 0' useGlobalGravity='false' inertia='0.5 0 0 0 0.5 0 0 0 0.5' torques='1 0 0'",
+               kBox) +
+      "</RigidBodyCollection>");
+  world.run(10);
+  EXPECT_NEAR(500 - world.body("FALLS").X_WB.p.y(), 0.5 * 9.8 * 100, 4.9);
+  const double way_m = 3 * (std::pow(0.6, 10) - 1) / std::log(0.6);
+  EXPECT_NEAR(world.body("SLOWS").X_WB.p.z(), way_m, 0.01 * way_m);
+  EXPECT_NEAR(world.body("PUSHED").X_WB.p.z(), 0.5 * 2 * 100, 1);
+  EXPECT_NEAR(world.body("SPUN").V_WB.w.x(), 20, 0.2);
+}
+
+TEST(PlainX3dWorld, APendulumSwingsInItsTime) {
+  PlainWorld world(
+      "<RigidBodyCollection>" + box_body("BOB", "position='1 0 0'", "<Sphere radius='0.1'/>") +
+      "<BallJoint containerField='joints' anchorPoint='0 0 0'><RigidBody USE='BOB' containerField='body1'/>"
+      "</BallJoint></RigidBodyCollection>");
+  double crossed_s = 0, before = 1;
+  int crossings = 0;
+  world.run(10, [&] {
+    const double x = world.body("BOB").X_WB.p.x();
+    if ((before > 0) != (x > 0)) {
+      ++crossings;
+      crossed_s = world.time_s();
+    }
+    before = x;
+  });
+  // From a right angle: four times the quarter 1.8540747 sqrt(I / (m g L)), and its solid turns with it.
+  const double period_s = 4 * 1.8540747 * std::sqrt((1 + 0.4 * 0.01) / 9.8);
+  ASSERT_EQ(crossings, 8);
+  EXPECT_NEAR(crossed_s, (0.25 + 0.5 * 7) * period_s, 0.01 * crossed_s);
+}
+
+TEST(PlainX3dWorld, ABlockSlidesDownASlopeAgainstFriction) {
+  const double slope = 0.5, friction = 0.3;
+  const std::string turned = fmt::format("orientation='0 0 1 {}'", -slope);
+  const Vec3 up(std::sin(slope), std::cos(slope), 0);
+  const Vec3 start = 0.6 * up;
+  PlainWorld world(
+      "<RigidBodyCollection><CollisionCollection containerField='collider' frictionCoefficients='0.3 0.3' "
+      "appliedParameters='\"FRICTION_COEFFICIENT-2\"'><CollidableShape USE='C_SLOPE' "
+      "containerField='collidables'/><CollidableShape USE='C_BLOCK' containerField='collidables'/>"
+      "</CollisionCollection>" +
+      box_body("SLOPE", "fixed='true' " + turned, "<Box size='12 1 2'/>") +
+      box_body("BLOCK", fmt::format("position='{} {} 0' {}", start.x(), start.y(), turned), kBox) +
+      "</RigidBodyCollection>");
+  world.run(2);
+  const Vec3 way = world.body("BLOCK").X_WB.p - start;
+  const double expected_m = 0.5 * 9.8 * (std::sin(slope) - friction * std::cos(slope)) * 4;
+  EXPECT_NEAR(way.norm(), expected_m, 0.01 * expected_m);
+  EXPECT_NEAR(way.dot(up), 0, 0.002);
+}
+
+TEST(PlainX3dWorld, TheManualsExampleRuns) {
+  const std::string page = test::text_of(test::source_folder() / "scenarios/REFERENCE.md");
+  const std::size_t begin = page.find("<Scene>", page.find("## Shapes without a modelling program")) + 7;
+  PlainWorld world(page.substr(begin, page.find("</Scene>", begin) - begin));
+  world.run(2);
+  EXPECT_NEAR(world.body("BALL").X_WB.p.y(), 0.75 + 0.06, 0.001);
+}
+
+TEST(PlainX3dWorld, ThingsRestOnEachOtherAndWheelsRoll) {
+  std::string car = box_body("GROUND", "fixed='true' position='0 -0.5 0'", "<Box size='8 1 40'/>") +
+                    box_body("BLOCK", "position='3 0.5 0'", "<Box size='0.4 0.4 0.4'/>") +
+                    box_body("CHASSIS", "mass='5' position='0 0.5 0'", "<Box size='1 0.4 2'/>");
+  for (const auto& [name, x, z] :
+       {std::tuple("FL", -0.6, 0.8), {"FR", 0.6, 0.8}, {"RL", -0.6, -0.8}, {"RR", 0.6, -0.8}}) {
+    car += box_body(
+        name, fmt::format("position='{} 0.4 {}' orientation='0 0 1 -1.5708' torques='{} 0 0'", x, z, z < 0 ? 1 : 0),
+        "<Cylinder radius='0.4' height='0.2'/>");
+    car += fmt::format(
+        "<SingleAxisHingeJoint containerField='joints' axis='1 0 0' anchorPoint='{} 0.4 {}'><RigidBody USE='{}' "
+        "containerField='body1'/><RigidBody USE='CHASSIS' containerField='body2'/></SingleAxisHingeJoint>",
+        x, z, name);
+  }
+  PlainWorld world("<RigidBodyCollection>" + car + "</RigidBodyCollection>");
+  world.run(4);
+  EXPECT_NEAR(world.body("BLOCK").X_WB.p.y(), 0.2, 0.002);
+  // Two torques of 1 N m; four wheels of 1 kg, each of which counts half more because it turns.
+  const double expected_m = 0.5 * (2 / 0.4) / (5 + 4 * 1.5) * 16;
+  const Vec3 car_at = world.body("CHASSIS").X_WB.p;
+  // Wheels of 144 flats lose a twentieth of the way at their edges.
+  EXPECT_NEAR(car_at.z(), expected_m, 0.07 * expected_m);
+  EXPECT_NEAR(car_at.y(), 0.5, 0.01);
+  EXPECT_NEAR(car_at.x(), 0, 0.02 * expected_m);
+}
+
+}  // namespace
+}  // namespace mechane::world
