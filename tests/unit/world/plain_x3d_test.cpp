@@ -26,9 +26,11 @@ std::string box_body(const std::string& def, const std::string& fields, const st
 class Loader final : public scenario::ObjectLoader {
  public:
   explicit Loader(const std::filesystem::path& cache) : store_(cache) {}
-  Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file,
-                                                          const std::string& node) override {
-    return store_.load(file, node, collision_build::BuildConfig{});
+  Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& file, const std::string& node,
+                                                          const geometry::SolidChoice& solid) override {
+    collision_build::BuildConfig config;
+    config.solid = solid;
+    return store_.load(file, node, config);
   }
   Expected<std::string> content_hash(const std::filesystem::path& file) override { return scenario::hash_file(file); }
 
