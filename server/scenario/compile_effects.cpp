@@ -143,6 +143,26 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   return effect;
 }
 
+/// Before and above what can move, or all where nothing can, so that it fills half the picture; none without shapes.
+std::optional<state::Viewpoint> view_of_all(std::span<const state::BodyDescription> bodies) {
+  constexpr double kLeastRadius_m = 0.3;
+  const bool any_moves = std::any_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.object && !b.fixed; });
+  Eigen::AlignedBox3d box;
+  for (const state::BodyDescription& body : bodies) {
+    if (!body.object || (any_moves && body.fixed)) continue;
+    const geometry::Sphere& bound_B = body.object->bound_O;
+    const Vec3 center_W = body.X_WB * bound_B.center;
+    box.extend(Vec3(center_W.array() - bound_B.radius)).extend(Vec3(center_W.array() + bound_B.radius));
+  }
+  if (box.isEmpty()) return std::nullopt;
+  state::Viewpoint view;
+  const double radius_m = std::max(kLeastRadius_m, box.diagonal().norm() / 2);
+  const Quat R_WV(Eigen::AngleAxisd(-0.3, Vec3::UnitX()));
+  const double distance_m = 2 * radius_m / std::tan(view.field_of_view_rad / 2);
+  view.X_WV = {box.center() + distance_m * (R_WV * Vec3::UnitZ()), R_WV};
+  return view;
+}
+
 }  // namespace
 
 void compile_effects(Compilation& c) {
@@ -172,6 +192,8 @@ void compile_viewpoints(Compilation& c) {
     }
     c.world.viewpoints.push_back(std::move(viewpoint));
   }
+  if (!c.world.viewpoints.empty()) return;
+  if (auto view = view_of_all(c.world.bodies)) c.world.viewpoints.push_back(std::move(*view));
 }
 
 }  // namespace mechane::scenario

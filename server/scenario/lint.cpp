@@ -149,8 +149,9 @@ void check_world(Compilation& c) {
   if (c.world.bodies.empty())
     c.problems.warning(ErrorCode::missing, line, "Scene", "there is no RigidBody: nothing can be touched",
                        "add a RigidBodyCollection");
-  if (c.world.viewpoints.empty())
-    c.problems.warning(ErrorCode::missing, line, "Scene", "there is no Viewpoint",
+  if (c.document.elements("Viewpoint").empty())
+    c.problems.warning(ErrorCode::missing, line, "Scene",
+                       "there is no Viewpoint: the picture shows what can move, from before and above",
                        "add one that shows the whole machine");
   const auto graspable = [](const state::BodyDescription& body) { return body.graspable; };
   // A sign to another exhibit is pointed at, not held.

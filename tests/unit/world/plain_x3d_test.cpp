@@ -63,6 +63,7 @@ class PlainWorld {
     }
   }
   [[nodiscard]] double time_s() const { return time_s_; }
+  [[nodiscard]] const state::WorldDescription& description() const { return *world_->description; }
   [[nodiscard]] const state::BodyState& body(const std::string& name) const {
     return world_->state[world_->description->find_body(name)];
   }
@@ -144,6 +145,23 @@ TEST(PlainX3dWorld, TheManualsExampleRuns) {
   PlainWorld world(page.substr(begin, page.find("</Scene>", begin) - begin));
   world.run(2);
   EXPECT_NEAR(world.body("BALL").X_WB.p.y(), 0.75 + 0.06, 0.001);
+}
+
+TEST(PlainX3dWorld, WithoutAViewpointOneSeesWhatCanMove) {
+  const PlainWorld world("<RigidBodyCollection>" + box_body("GROUND", "fixed='true'", "<Box size='80 1 80'/>") +
+                         box_body("LEFT", "position='3 2 -5'", kBox) + box_body("RIGHT", "position='4 2 -5'", kBox) +
+                         "</RigidBodyCollection>");
+  const state::Viewpoint& view = world.description().viewpoints.at(0);
+  EXPECT_GT(view.X_WV.p.y(), 2);
+  double widest = 0;
+  for (const double x : {2.9, 4.1}) {
+    const Vec3 p_V = view.X_WV.inverse() * Vec3(x, 2, -5);
+    ASSERT_LT(p_V.z(), 0);
+    const double edge = -p_V.z() * std::tan(view.field_of_view_rad / 2);
+    widest = std::max({widest, std::abs(p_V.x()) / edge, std::abs(p_V.y()) / edge});
+  }
+  EXPECT_GT(widest, 0.3);
+  EXPECT_LT(widest, 0.7);
 }
 
 TEST(PlainX3dWorld, ThingsRestOnEachOtherAndWheelsRoll) {
