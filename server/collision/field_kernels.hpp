@@ -176,7 +176,7 @@ struct FieldKernels : FieldLeaves<Lanes> {
       const auto of = [&](const float* from) {
         return load_quads([&](int k) {
           const std::uint32_t quad = quads[at + static_cast<std::size_t>(k)];
-          return from + points.stride * (quad / 4) + 4 * (quad % 4);
+          return from + points.stride * (quad / 4) + std::size_t{4} * (quad % 4);
         });
       };
       const Place place = place_of(map, transform(X, {of(points.x), of(points.y), of(points.z)}));

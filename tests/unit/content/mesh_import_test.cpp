@@ -162,7 +162,7 @@ TEST_F(MeshImport, RefusesFaultyFilesWithAReason) {
   EXPECT_THAT(fault("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), HasRemedyAndWhere("points.obj"));
   EXPECT_THAT(fault("text.stl", "this is not a mesh"), HasRemedyAndWhere("text.stl"));
   EXPECT_THAT(fault("nothing.obj", ""), is_error(ErrorCode::damaged, 0, {"nothing.obj", "empty"}));
-  EXPECT_THAT(fault("scene.x3d", "<X3D/>"), is_error(ErrorCode::not_supported, 0, {"'.x3d'", ".glb"}));
+  EXPECT_THAT(fault("scene.dae", "<COLLADA/>"), is_error(ErrorCode::not_supported, 0, {"'.dae'", ".glb"}));
   EXPECT_THAT(import_mesh(folder_.path() / "missing.glb").error(), is_error(ErrorCode::not_found, 0, {"missing.glb"}));
   EXPECT_THAT(import_mesh(folder_.path()).error(),
               is_error(ErrorCode::invalid_value, 0, {folder_.path().string(), ".glb"}));
