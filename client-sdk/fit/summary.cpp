@@ -76,7 +76,7 @@ void note_solid(const std::string& name, const geometry::SolidMesh& solid, const
                     mm_text(1e4 * solid.sheet_area_m2), mm_text(1000 * choice.thickness_m)));
   }
   if (solid.hidden_area_m2 > 0.001 * area_m2) {
-    note(fmt::format("{} cm² of it lie inside other pieces of it and are left out",
+    note(fmt::format("{} cm² of it lie inside other pieces or enclose nothing, and are left out",
                      mm_text(1e4 * solid.hidden_area_m2)));
   }
   if (solid.doubled > 0) note(fmt::format("{} triangles have a second one on their back, left out", solid.doubled));
@@ -148,8 +148,8 @@ void note_budget(const FittedObject& fitted, Summary& summary) {
   summary.misses_budget = !inexact.empty();
   if (inexact.empty()) return;
   summary.notes.push_back(fmt::format(
-      "{} of {} parts exceed the allowed error of {} mm: {}; each has the least error found", inexact.size(),
-      fitted.report.parts.size(), mm_text(1000 * fitted.report.budget.depth_p99_m), listed(inexact)));
+      "{} of {} parts exceed the allowed error of {} mm, or miss places: {}; each has the least error found",
+      inexact.size(), fitted.report.parts.size(), mm_text(1000 * fitted.report.budget.depth_p99_m), listed(inexact)));
 }
 
 void note_parts(const FittedObject& fitted, Summary& summary) {

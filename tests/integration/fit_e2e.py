@@ -105,7 +105,7 @@ class Fit(EndToEnd):
     def test_a_bad_mesh_is_told_and_does_not_stop_the_others(self):
         bad = {
             "empty.obj": "",
-            "two.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n",
+            "lines.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\nl 2 3\n",
             "cut.glb": b"glTF" + struct.pack("<II", 2, 4000),
             "vast.obj": obj_of_boxes([("box", (0, 0, 0), (4e4, 4e4, 4e4))]),
             "not.txt": "hello",
@@ -127,10 +127,11 @@ class Fit(EndToEnd):
     def test_an_open_mesh_is_built_with_a_word_about_it(self):
         text = "\n".join(CRANK.splitlines()[:-1]) + "\n"  # the last triangle is gone
         fin = BOX + "v 0.02 0.02 0.3\nf 1 2 9\n"  # three triangles share an edge
-        for name, content, part in (("open.obj", text, "part_grip"), ("fin.obj", fin, "part_box")):
+        for name, content, says in (("open.obj", text, r"part 'part_grip': open, with 3 edges without a\s+neighbour"),
+                                    ("fin.obj", fin, r"part 'part_box': 69 cm² of it [\s\w,]+\s+are\s+left\s+out")):
             result = self.fit_alone(name, content)
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertRegex(result.stdout, rf"part '{part}': edges without a\s+neighbour")
+            self.assertRegex(result.stdout, says)
 
     def test_a_value_that_is_not_a_number_is_reported(self):
         for name, content in (("nan.obj", CRANK.replace("v 0.02 ", "v nan ", 1)), ("inf.obj", BOX.replace("v -0.02 ", "v inf ", 1))):
@@ -160,10 +161,13 @@ class Fit(EndToEnd):
             self.assertLess(float(felt[1]), 5 if name == "crossed.obj" else 1, result.stdout)
             self.assertLess(float(felt[2]), 0.5, result.stdout)
 
-    def test_a_sheet_is_refused(self):
+    def test_a_sheet_is_made_thick_or_refused_where_it_must_be_closed(self):
         sheet = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\n"
         for name, faces in (("two.obj", "f 1 2 3\nf 1 3 4\n"), ("folded.obj", "f 1 2 3\nf 1 3 2\n")):
             result = self.fit_alone(name, sheet + faces)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, r"a sheet of\s+1\.0\s+mm")
+            result = self.run_command("fit", self.folder / name, "--report", "none", "--solid", "closed", limit_s=120)
             self.assertEqual(result.returncode, 1, result.stdout)
             self.assertRegex(result.stderr, rf"mechane fit: .*{name}.*: .*; .+")
 
