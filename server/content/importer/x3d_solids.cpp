@@ -217,7 +217,8 @@ Faces faces_of_extrusion(const x3d::NodeFields& extrusion) {
     const double* wide = value_at(scale, 2, i);
     const Mat3 R = frames[i] * x3d::rotation_of({value_at(turns, 4, i), 4}).toRotationMatrix();
     for (std::uint32_t j = 0; j < round; ++j)
-      faces.points.push_back(spine.points[i] + R * Vec3(section[2 * j] * wide[0], 0, section[2 * j + 1] * wide[1]));
+      faces.points.push_back(spine.points[i] + R * Vec3(section[std::size_t{2} * j] * wide[0], 0,
+                                                        section[std::size_t{2} * j + 1] * wide[1]));
   }
   const auto steps = static_cast<std::uint32_t>(spine.points.size()) - 1;
   for (std::uint32_t i = 0; i <= steps; ++i) {
