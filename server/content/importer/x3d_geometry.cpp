@@ -73,8 +73,12 @@ class GeometryReader {
   }
 
   Expected<Faces> elevation_grid() const {
-    const auto nx = static_cast<std::uint64_t>(node_.number("xDimension"));
-    const auto nz = static_cast<std::uint64_t>(node_.number("zDimension"));
+    const auto points_along = [&](const char* field) {
+      const double points = node_.number(field);
+      return static_cast<std::uint64_t>(points >= 0 ? std::min(points, 1e9) : 0);  // whatever stands there
+    };
+    const std::uint64_t nx = points_along("xDimension");
+    const std::uint64_t nz = points_along("zDimension");
     const std::vector<double> height = node_.numbers("height");
     if (nx < 2 || nz < 2)
       return fault(ErrorCode::missing, "xDimension or zDimension is below 2",
