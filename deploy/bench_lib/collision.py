@@ -109,7 +109,8 @@ def _models(metrics: dict[str, float]) -> list[list[str]]:
 def _open(metrics: dict[str, float]) -> list[list[str]]:
     """A row for each open or overlapping mesh."""
     names = sorted({name.split(".")[1] for name in metrics if name.startswith("open.") and name.endswith(".judged")})
-    rows = [["open or overlapping", "triangles", "sheet", "build s", "parts", "KB", "judged", "measured", "err p99 %", "missed %", "false %"]]
+    rows = [["open or overlapping", "triangles", "sheet", "build s", "parts", "KB", "judged", "measured", "err p99 %",
+             "missed %", "false %"]]
     for name in names:
         rows.append([name, *(_shown(metrics, f"open.{name}.{metric}", scale) for metric, scale in
                              (("triangles", 1), ("sheet", 1), ("build_s", 1), ("parts", 1), ("bytes", 1e-3), ("judged", 1), ("measured", 1),

@@ -22,6 +22,17 @@ inline constexpr float kHalfDiagonal = 0.8661F;
   return static_cast<std::size_t>(at);
 }
 
+/// What a trilinear function takes of each of a block's corners, x fastest, at a place from 0 to 1 along each edge.
+[[nodiscard]] inline Eigen::Matrix<double, 8, 1> corner_weights(const Vec3& p_B) {
+  Eigen::Matrix<double, 8, 1> weights;
+  for (int corner = 0; corner < 8; ++corner) {
+    weights[corner] = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      weights[corner] *= (corner >> axis & 1) != 0 ? p_B[axis] : 1 - p_B[axis];
+  }
+  return weights;
+}
+
 /// Calls body(node) for all below `count`, x fastest.
 template <class Body>
 void for_each_node(const Node& count, const Body& body) {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "server/base/assert.hpp"
+#include "server/collision/block_lattice.hpp"
 #include "server/collision/evaluate_one.hpp"
 
 namespace mechane::collision {
@@ -65,13 +66,10 @@ double quantise(std::span<const double> corners, DistanceField::Slot& slot, cons
 }
 
 double between_corners(const std::uint8_t* corners, const Vec3& p_L) {
+  const auto weights = corner_weights(p_L);
   double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1;
-    for (int axis = 0; axis < 3; ++axis)
-      weight *= (corner >> axis & 1) != 0 ? p_L[axis] : 1 - p_L[axis];
-    sum += weight * signed_byte(corners[corner]);
-  }
+  for (int corner = 0; corner < 8; ++corner)
+    sum += weights[corner] * signed_byte(corners[corner]);
   return sum;
 }
 

@@ -154,7 +154,8 @@ struct Kernels {
   /// 4 i to 4 i + 3, and returns how many. Writes up to three more fours behind the last; `out` needs kLanes places more.
   std::size_t (*field_sift)(const FieldView& map, const BlockTransform& X_B, const SpheresView& spheres,
                             std::size_t stride, std::uint32_t* fours, std::size_t count, std::uint32_t* out) noexcept;
-  /// All points inside of at most kFieldBatch clusters, with three places behind them: depths, and normals turned by R_AQ. Returns how many were written.
+  /// All points inside of at most kFieldBatch clusters, with three places behind them: depths, and normals turned by R_AQ.
+  /// Returns how many were written.
   std::size_t (*field_hits)(const FieldView& map, const BlockTransform& X_B, const std::array<float, 9>& R_AQ,
                             const PointRuns& points, std::uint32_t* clusters, std::size_t count,
                             const HitRuns& out) noexcept;

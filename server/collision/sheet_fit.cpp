@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "server/collision/block_lattice.hpp"
+
 namespace mechane::collision {
 namespace {
 
@@ -19,17 +21,6 @@ constexpr double kRidge = 1e-9;
 constexpr double kSameFace = 0.97;  // cosine: faces closer than this in direction count as one
 
 using Weights = Eigen::Matrix<double, 8, 1>;
-
-/// The weight of each corner at a place.
-Weights corner_weights(const Vec3& p_B) {
-  Weights w;
-  for (int corner = 0; corner < 8; ++corner) {
-    w[corner] = 1;
-    for (int axis = 0; axis < 3; ++axis)
-      w[corner] *= (corner >> axis & 1) != 0 ? p_B[axis] : 1 - p_B[axis];
-  }
-  return w;
-}
 
 /// 1, x, y, xy, z, xz, yz, xyz about the block's middle.
 Weights monomials(const Vec3& p_B) {

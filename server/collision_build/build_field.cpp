@@ -126,11 +126,7 @@ using Terms = Eigen::Matrix<double, 11, 1>;
 /// Of the eight corners and the three bubbles, at a place.
 Terms terms_at(const Vec3& p_B) {
   Terms t;
-  for (int corner = 0; corner < 8; ++corner) {
-    t[corner] = 1;
-    for (int axis = 0; axis < 3; ++axis)
-      t[corner] *= (corner >> axis & 1) != 0 ? p_B[axis] : 1 - p_B[axis];
-  }
+  t.head<8>() = collision::corner_weights(p_B);
   for (int axis = 0; axis < 3; ++axis)
     t[8 + axis] = p_B[axis] * (1 - p_B[axis]);
   return t;

@@ -78,7 +78,8 @@ using PartDone = std::function<void(std::size_t done, std::size_t parts)>;
 
 /// Decomposes, fits, maps and samples meshes in the object's frame O. A part gets the smallest map that meets the error budget, and the
 /// report says where none does. Each mesh becomes a solid first (make_solid). Parts that touch or overlap make one solid: seams are neither
-/// mapped nor sampled. Errors name the part: no triangles, NaN, flat, enclosing nothing, too many parts or triangles. `report` may be null. Uses all cores.
+/// mapped nor sampled. Errors name the part: no triangles, NaN, flat, enclosing nothing, too many parts or triangles.
+/// `report` may be null. Uses all cores.
 [[nodiscard]] Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> parts,
                                                        const BuildConfig& config, BuildReport* report = nullptr,
                                                        const PartDone& on_part = {});

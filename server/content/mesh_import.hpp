@@ -11,8 +11,8 @@
 
 namespace mechane::content {
 
-/// Reads a .glb, .gltf, .obj, .stl, .ply or .x3d file. Blocks for as long as the child takes (limits.wall_time at most); any thread but those
-/// of loops. The child is the program mechane-mesh-import: limits.helper, or $MECHANE_LIBEXEC/mechane-mesh-import, or beside the
+/// Reads a .glb, .gltf, .obj, .stl, .ply or .x3d file. Blocks for as long as the child takes (limits.wall_time at most); any thread but
+/// those of loops. The child is the program mechane-mesh-import: limits.helper, or $MECHANE_LIBEXEC/mechane-mesh-import, or beside the
 /// running program, or in ../libexec/mechane from there. It gets no descriptors of ours, limited memory and processor time, and reads
 /// nothing outside the file's own folder. Errors: not_found (the file, or the helper program), not_supported (the format), too_large,
 /// timed_out, failed_process, and what check_scene and the reader say of a faulty file. When `stop` asks for it, the child is killed and

@@ -43,8 +43,8 @@ class MeshQuery {
   [[nodiscard]] bool contains(const Vec3& p) const;
 
   /// The generalized winding number: the solid angle under which the mesh is seen from p, outer sides counted negative, as a share of the
-  /// full sphere. 1 in a closed mesh, 0 outside, between where there are holes. Far triangles are taken together (Barill et al. 2018), which
-  /// errs by a thousandth or two. Only for Inside::by_winding_number.
+  /// full sphere. 1 in a closed mesh, 0 outside, between where there are holes. Far triangles are taken together (Barill et al. 2018),
+  /// which errs by a thousandth or two. Only for Inside::by_winding_number.
   [[nodiscard]] double winding_number(const Vec3& p) const;
 
   /// How many closed pieces contain p: crossings towards the outside less crossings towards the inside, the middle of three rays.

@@ -84,8 +84,8 @@ NodeId ShapeTree::picture_of(NodeId body) const {
   return found == picture_of_.end() ? NodeId::none() : found->second;
 }
 
-/// By ROUTEs of a body's position or orientation. One Transform is the picture of one body, the first that moves it. One without a shape
-/// that is drawn is no picture.
+/// By ROUTEs of a body's position or orientation. One Transform is the picture of one body, the first that moves it. It needs a
+/// shape that is drawn.
 void ShapeTree::find_moved() {
   for (const NodeId id : document_.elements("ROUTE")) {
     const Node& route = document_[id];

@@ -24,7 +24,8 @@ SCENARIO = ROOT / "scenarios/village/village.x3d"  # the quickest to load
 class Worlds(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        done = subprocess.run([PROGRAM, SCENARIO, "--seconds", "0.3", "--most", "3", "--priority", "0"], capture_output=True, text=True, check=False)
+        done = subprocess.run([PROGRAM, SCENARIO, "--seconds", "0.3", "--most", "3", "--priority", "0"],
+                              capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         said = json.loads(done.stdout)
         cls.result = Measured(said["metrics"], said["curves"], said["notes"])

@@ -17,8 +17,8 @@ class X3dLooks {
  public:
   X3dLooks(const FolderIo& io, ImportedScene& scene) : io_(io), scene_(scene) {}
 
-  /// The index of the material; an appearance of none is X3D's plain white. `folder` is that of the document, as a path from the
-  /// folder of `io`. Errors: not_found (an image), not_supported (neither PNG nor JPEG), io_failure.
+  /// The index of the material; without an appearance, a Shape is plain white. Images are looked for in the document's
+  /// folder. Errors: not_found (an image), not_supported (neither PNG nor JPEG), io_failure.
   [[nodiscard]] Expected<std::uint32_t> material(const x3d::Document& document, x3d::NodeId appearance,
                                                  bool both_sides);
 

@@ -78,8 +78,8 @@ class Against(unittest.TestCase):
         now = {"tick_us.a.median": 9.0, "tick_us.a.mean": 10.0, "tick_us.b.median": 1.0, "tick_us.b.mean": 2.0, "tick_us.new.median": 1.0,
                "tick_us.new.mean": 1.0, "worlds_per_core": 30}
         before = {"tick_us.a.mean": 40.0, "tick_us.b.mean": 2.0, "worlds_per_core": 10}
-        self.assertEqual(worlds.against(now, before), {"against.cpu_ratio.a": 0.25, "against.cpu_ratio.b": 1, "against.cpu_ratio_sum": 12 / 42,
-                                                       "against.worlds_ratio": 3})
+        self.assertEqual(worlds.against(now, before), {"against.cpu_ratio.a": 0.25, "against.cpu_ratio.b": 1,
+                                                       "against.cpu_ratio_sum": 12 / 42, "against.worlds_ratio": 3})
         self.assertEqual(worlds.against({}, {}), {})
 
     def test_a_revision_that_is_not_there_is_said(self):
