@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "client-sdk/cli/record.hpp"
 #include "client-sdk/cli/sibling.hpp"
 #include "client-sdk/cli/visits.hpp"
+#include "server/base/command_line.hpp"
 #include "server/base/suggestion.hpp"
 #include "server/log/log.hpp"
 #include "server/scenario/checker.hpp"
@@ -224,7 +226,7 @@ std::string unknown_command(const CLI::App& app, const std::string& word) {
 }
 
 int add_and_parse(int argc, char** argv) {
-  CLI::App app{"Mechane: touch, assemble and work the machines of ancient Greek engineers."};
+  CLI::App app{"Mechane: touch, assemble and work the machines of ancient Greek engineers.", "mechane"};
   app.set_version_flag("--version", std::string("mechane ") + MECHANE_VERSION);
   app.require_subcommand(1);
   for (const Program& program : kPrograms) {
@@ -262,11 +264,7 @@ int add_and_parse(int argc, char** argv) {
     std::cerr << fault;
     return 2;
   }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
-  }
+  if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   if (*echo_command) return cli::run_echo(echo);
   if (*open_command) return cli::run_open(open);
   if (*record_command) return cli::run_record(record, std::cerr);

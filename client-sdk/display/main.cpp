@@ -1,6 +1,7 @@
 // mechane-display: shows a kiosk's world, in a window or offscreen.
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/spare_memory.hpp"
+#include "server/base/command_line.hpp"
 #include "server/log/log.hpp"
 
 namespace {
@@ -182,17 +184,13 @@ int main(int argc, char** argv) {
   display::keep_large_blocks_apart();
   display::DisplayOptions options;
   std::string size = "1280x720";
-  CLI::App app{"Shows a kiosk's world, in a window or offscreen."};
+  CLI::App app{"Shows a kiosk's world, in a window or offscreen.", "mechane display"};
   add_options(app, options, size);
   add_stereo_options(app, options);
   add_kiosk_options(app, options);
   add_recording_options(app, options);
-  try {
-    app.parse(argc, argv);
-    check_together(options);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
-  }
+  app.final_callback([&] { check_together(options); });
+  if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   log::start("mechane-display", log::Level::info);
   const Expected<picture::PixelSize> parsed = display::parse_size(size);
   if (!parsed) {

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "client-sdk/fit/interruption.hpp"
 #include "client-sdk/fit/progress.hpp"
 #include "client-sdk/fit/table.hpp"
+#include "server/base/command_line.hpp"
 
 namespace {
 
@@ -148,11 +150,7 @@ int main(int argc, char** argv) {
       "mechane fit"};
   app.get_formatter()->column_width(34);
   add_options(app, a);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
-  }
+  if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   a.options.folder = a.folder;
   a.options.report = a.report == "html";
   try {

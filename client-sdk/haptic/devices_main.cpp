@@ -1,6 +1,7 @@
 // mechane-devices: which drivers are there; tries a device with a gentle wall. It is also the program in which a driver runs.
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include "client-sdk/haptic/driver_host.hpp"
 #include "client-sdk/haptic/virtual_hand.hpp"
 #include "client-sdk/haptic/wall_test.hpp"
+#include "server/base/command_line.hpp"
 #include "server/log/log.hpp"
 #include "server/log/printable.hpp"
 #include "server/realtime/quantiles_json.hpp"
@@ -164,7 +166,8 @@ int test(const Arguments& a) {
 
 int main(int argc, char** argv) {
   Arguments a;
-  CLI::App app{"Lists the drivers of haptic devices; with --test tries one: a gentle wall, without a server."};
+  CLI::App app{"Lists the drivers of haptic devices; with --test tries one: a gentle wall, without a server.",
+               "mechane devices"};
   app.add_option("--test", a.test,
                  "try this device: NAME, or NAME:OPTION=VALUE,...; NAME may be a driver's file, with a slash in it");
   app.add_option("--seconds", a.seconds, "end the test after this time; 0: run until stopped")
@@ -173,11 +176,7 @@ int main(int argc, char** argv) {
   app.add_option("--fifo-priority", a.fifo_priority, "SCHED_FIFO priority; 0: ordinary threads")
       ->check(CLI::Range(0, 98));
   app.add_option("--serve", a.serve, "run a driver for a haptic loop; only Mechane's own programs use it")->group("");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
-  }
+  if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   if (!a.serve.empty()) return serve_driver(parse_device_name(a.serve), a.fifo_priority);
   log::start("devices", log::Level::info);
   std::signal(SIGINT, [](int) { g_stop = 1; });

@@ -16,6 +16,7 @@
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/link_news.hpp"
 #include "client-sdk/haptic/virtual_hand.hpp"
+#include "server/base/command_line.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/hand/hand_skeleton.hpp"
 #include "server/log/log.hpp"
@@ -516,13 +517,9 @@ int main(int argc, char** argv) {
   const sigset_t usr1 = calibration_signal();
   ::pthread_sigmask(SIG_BLOCK, &usr1, nullptr);  // before there are other threads, which inherit it
   Arguments a;
-  CLI::App app{"Runs a haptic device at a kiosk: the hand goes to the server, the force comes back."};
+  CLI::App app{"Runs a haptic device at a kiosk: the hand goes to the server, the force comes back.", "mechane haptic"};
   add_options(app, a);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
-  }
+  if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   if (a.check) return 0;
   log::start("haptic", log::Level::info);
   a.client.role = client::Role::hand;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 
 #include "client-sdk/haptic/driver.hpp"
 #include "client-sdk/visitor/visit_tour.hpp"
+#include "server/base/command_line.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/log/log.hpp"
 
@@ -135,13 +137,9 @@ int play_all(Arguments& a) {
 
 int main(int argc, char** argv) {
   Arguments a;
-  CLI::App app{"Plays a scenario's scripted visit over the network like a person."};
+  CLI::App app{"Plays a scenario's scripted visit over the network like a person.", "mechane visitor"};
   add_options(app, a);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, as in all programs of Mechane
-  }
+  if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   log::start("visitor", log::Level::info);
   a.options.client.role = client::Role::hand;
   a.options.client.program = "mechane-visitor";

@@ -1,5 +1,6 @@
 // mechane-replay: runs a journal again, as fast as possible or in real time, and says whether it ends as the live world did.
 #include <filesystem>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "server/app/replay.hpp"
 #include "server/app/scenario_store.hpp"
 #include "server/app/version.hpp"
+#include "server/base/command_line.hpp"
 #include "server/log/log.hpp"
 
 namespace {
@@ -69,7 +71,8 @@ int main(int argc, char** argv) {
   Arguments a;
   CLI::App app{
       "Runs a journal again and compares its state hashes. Exit status: 0 the same, 1 different or cut off, 2 an "
-      "error."};
+      "error.",
+      "mechane replay"};
   app.set_version_flag("--version", std::string("mechane ") + app::kVersion);
   app.add_option("journal", a.journal, "journal file of a server's records")->required();
   app.add_option("--scenario", a.settings.scenarios, "X3D file that the journal's world ran")->required();
@@ -77,11 +80,7 @@ int main(int argc, char** argv) {
   app.add_option("--cache", a.settings.cache, "folder of built collision parts");
   app.add_flag("--real-time", a.options.real_time, "at the pace of the visit");
   app.add_flag("--events", a.options.show_events, "print every event");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;  // 2: wrong arguments, in all of mechane's programs
-  }
+  if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   log::start("replay", log::Level::info);
   return run(a);
 }

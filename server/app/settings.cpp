@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "server/app/version.hpp"
+#include "server/base/command_line.hpp"
 #include <mechane/proto/names.hpp>
 
 namespace mechane::app {
@@ -175,7 +176,7 @@ Expected<void> validate(const Settings& s) {
 /// Writes the flags over `s`. `file` gets what --settings names, if it was given.
 Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::optional<std::string>& file,
                           std::string& help) {
-  CLI::App app{"The Mechane server: simulates worlds at 1 kHz and publishes them over DDS."};
+  CLI::App app{"The Mechane server: simulates worlds at 1 kHz and publishes them over DDS.", "mechane server"};
   app.set_version_flag("--version", std::string("mechane ") + kVersion);
   std::vector<std::filesystem::path> scenarios;
   int cpu = -1;
@@ -220,7 +221,7 @@ Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::o
     help = app.count("--version") > 0 ? app.version() + "\n" : app.help();
     return {};
   } catch (const CLI::ParseError& e) {
-    return fail(ErrorCode::invalid_value, e.what(), "command line", "see mechane server --help");
+    return tl::unexpected(command_line_error(app, e));
   }
   if (!scenarios.empty()) s.scenarios = scenarios;
   if (cpu >= 0) s.first_cpu = cpu;

@@ -1,0 +1,68 @@
+#include "server/base/command_line.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "server/base/suggestion.hpp"
+
+namespace mechane {
+namespace {
+
+/// The command that was given, with the words before it: "mechane visits show".
+const CLI::App& given_command(const CLI::App& app, std::string& words) {
+  words = app.get_name();
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    words += " " + command->get_name();
+  }
+  return *command;
+}
+
+/// The first word that nothing takes, without its value; an option before other words, which may be its values.
+std::string unknown_word(const CLI::App& app) {
+  const std::vector<std::string> left = app.remaining(true);
+  const auto option = std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
+  const std::string word = option != left.end() ? *option : left.empty() ? "" : left.front();
+  return word.substr(0, std::min<std::size_t>(word.find('='), 80));
+}
+
+}  // namespace
+
+Error command_line_error(const CLI::App& app, const CLI::ParseError& fault) {
+  std::string words;
+  const CLI::App& command = given_command(app, words);
+  Error error{ErrorCode::invalid_value, fault.what(), words, "see " + words + " --help"};
+  error.what.erase(std::min(error.what.find('\n'), error.what.size()));
+  const std::string word = unknown_word(app);
+  if (dynamic_cast<const CLI::ExtrasError*>(&fault) == nullptr || word.empty()) return error;
+  const bool is_option = word.starts_with('-');
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames())
+      if (is_option) known.push_back("--" + name);
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    if (!is_option) known.push_back(below->get_name());
+  const std::string near = nearest(word, known);
+  error.what = is_option ? "there is no option '" + word + "'" : "nothing takes the word '" + word + "'";
+  if (!near.empty()) error.remedy = "did you mean '" + near + "'? (" + words + " --help lists them)";
+  return error;
+}
+
+std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::cerr << command_line_error(app, e).to_string() << '\n';
+    return 2;
+  }
+}
+
+}  // namespace mechane
