@@ -102,7 +102,7 @@ bool parse_hand(const proto::WireHandPose& wire, HandPose& out) {
 template <class Sequence>
 bool parse_texts(const Sequence& wire, std::map<std::string, std::string>& out) {
   const auto texts = proto::elements(wire);
-  if (texts.size() > kMaxTexts) return false;
+  if (texts.size() > mechane_kMaxLanguages) return false;
   out.clear();
   for (const proto::WireText& text : texts)
     out[clean(text.language)] = clean_string(text.content);

@@ -14,7 +14,6 @@ namespace mechane::client {
 inline constexpr std::size_t kMaxObjects = 100'000;
 inline constexpr std::size_t kMaxQuantities = 10'000;
 inline constexpr std::size_t kMaxHands = 16;
-inline constexpr std::size_t kMaxTexts = 64;
 inline constexpr std::size_t kMaxRopes = 64;
 inline constexpr std::size_t kMaxRopePoints = 1024;
 inline constexpr std::size_t kMaxSettings = 64;  ///< of one request or status

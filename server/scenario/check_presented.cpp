@@ -18,6 +18,17 @@ void check_count(Compilation& c, std::size_t count, const LineOf& line_of, const
                    fmt::format("remove {}", count - kMaxPresented));
 }
 
+/// More ropes act, and are not seen.
+void check_ropes(Compilation& c) {
+  std::size_t ropes = 0;
+  for (const state::ComponentDescription& agent : c.world.agents) {
+    if (agent.type != "geometry.rope" || ++ropes <= state::kMaxShownRopes) continue;
+    c.problems.warning(ErrorCode::too_large, agent.line, "agent " + agent.name,
+                       fmt::format("displays draw {} ropes, and this one is not seen", state::kMaxShownRopes),
+                       "make one rope of several, or show it by a mesh");
+  }
+}
+
 }  // namespace
 
 void check_presented(Compilation& c) {
@@ -27,6 +38,7 @@ void check_presented(Compilation& c) {
   check_count(c, c.world.effects.size(), effect_line, "effects", "effects");
   const auto activity_line = [&](std::size_t i) { return c.activity_lines[i]; };
   check_count(c, c.world.activities.size(), activity_line, "activities", "activities");
+  check_ropes(c);
   for (std::size_t a = 0; a < c.world.activities.size(); ++a) {
     const std::string where = "activity " + c.world.activities[a].name;
     const std::vector<state::QuestionDescription>& questions = c.world.activities[a].questionnaire;

@@ -10,6 +10,7 @@
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/scenario/compilation.hpp"
+#include "server/state/limits.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -40,6 +41,11 @@ void read_languages(Compilation& c, const Fields& fields) {
   if (fields.given("languages") && c.world.languages.empty()) {
     c.problems.error(ErrorCode::missing, fields.line("languages"), fields.where(), "no language is given",
                      "write \"el\" \"en\"");
+  }
+  if (const std::size_t count = c.world.languages.size(); count > state::kMaxLanguages) {
+    c.problems.error(ErrorCode::too_large, fields.line("languages"), fields.where(),
+                     fmt::format("{} languages are too many: displays take {}", count, state::kMaxLanguages),
+                     fmt::format("remove {}", count - state::kMaxLanguages));
   }
   for (const std::string& language : c.world.languages) {
     if (!is_language(language)) {

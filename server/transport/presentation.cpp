@@ -8,6 +8,7 @@
 namespace mechane::transport {
 
 static_assert(mechane_kMaxPresented == state::kMaxPresented);
+static_assert(mechane_kMaxLanguages == state::kMaxLanguages);
 static_assert(mechane_kMaxAffordances == state::kMaxAffordances);
 static_assert(mechane_affordance_taken == static_cast<int>(state::Affordance::Kind::taken));
 static_assert(mechane_affordance_turns == static_cast<int>(state::Affordance::Kind::turns));

@@ -40,8 +40,6 @@ struct HandSnapshot {
   Vec3 f_W = Vec3::Zero();
 };
 
-inline constexpr std::size_t kMaxShownRopes = 8;
-
 /// What displays and status need from one tick. Its vectors are sized once.
 struct SceneSnapshot {
   std::uint64_t tick = 0;
@@ -52,7 +50,7 @@ struct SceneSnapshot {
   std::vector<std::uint8_t> agent_enabled;
   state::Progress progress;
   std::array<HandSnapshot, hand::kMaxUsers> hands{};
-  std::array<state::Coupling, kMaxShownRopes> ropes{};  ///< the first ropes of the world
+  std::array<state::Coupling, state::kMaxShownRopes> ropes{};  ///< the first ropes of the world
   std::size_t rope_count = 0;
 };
 

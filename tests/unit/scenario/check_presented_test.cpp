@@ -35,5 +35,24 @@ TEST(CheckPresented, TooManyAnswersAreRefusedAtTheirQuestion) {
   EXPECT_EQ(problem.severity, x3d::Severity::error);
 }
 
+TEST(CheckPresented, ARopeThatIsNotSeenIsNamed) {
+  const std::string agents = "name='agents'>";
+  const std::string text = edited(
+      agents,
+      agents +
+          lines_of(
+              state::kMaxShownRopes + 1,
+              "<MetadataSet containerField='value' name='ROPE{}'><MetadataString containerField='value' name='type' "
+              "value='\"geometry.rope\"'/></MetadataSet>"));
+  const x3d::Problem problem = compile_text(text).find(ErrorCode::too_large, line_of(text, "'ROPE8'"), "draw 8 ropes");
+  EXPECT_EQ(problem.severity, x3d::Severity::warning);
+}
+
+TEST(CheckPresented, MoreLanguagesThanDisplaysTakeAreRefused) {
+  const std::string key = "name='languages' value='";
+  const std::string text = edited(key, key + lines_of(state::kMaxLanguages, "\"l{}\"") + " ");
+  static_cast<void>(compile_text(text).find(ErrorCode::too_large, kAnyLine, "displays take 64"));
+}
+
 }  // namespace
 }  // namespace mechane::scenario
