@@ -153,13 +153,14 @@ std::vector<Probe> make_probes(const Solid& solid, const geometry::MeshQuery& sk
                                std::uint64_t seed) {
   Random random(seed);
   std::vector<Probe> probes;
+  geometry::SurfacePoint nearest;
   const std::size_t step = std::max<std::size_t>(1, places.size() / count);
   for (std::size_t i = 0; i < places.size(); i += step) {
     // Two under the surface for one above it.
     double depth = budget.probe_depth_m * (probes.size() % 3 == 2 ? -random.unit() : random.unit());
     for (int halvings = 0; halvings < kHalvings; ++halvings, depth *= 0.5) {
       const Vec3 p = places[i].p_O - depth * places[i].n_O;
-      const geometry::SurfacePoint nearest = skin.closest(p);
+      nearest = skin.closest(p, nearest);
       if (solid.contains(p) != (depth > 0)) continue;
       probes.push_back({p, depth > 0 ? nearest.distance_m : -nearest.distance_m});
       break;
