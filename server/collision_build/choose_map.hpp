@@ -49,6 +49,7 @@ struct MapCandidates {
   std::size_t more_than = 0;                 ///< bytes: only larger maps
   std::size_t at_most = 128U << 10;          ///< bytes
   std::span<const Probe> must = {};          ///< points none of which may be missed or wrong, besides the budget
+  double but_for = 0;                        ///< except for this share of them
   const geometry::Mesh* field_of = nullptr;  ///< the skin's mesh: a DistanceField of it comes before the others
 };
 

@@ -34,6 +34,7 @@ constexpr std::size_t kWorthOfWhole = 2;  // a brick may take this many times th
 constexpr std::size_t kBytesOfPart =
     480;  // beside its map; fixed, so that no member that is added changes what is built
 constexpr std::size_t kMostBytesUncut = 262'144;
+constexpr double kStrayUncut = 5e-4;            // of the witnesses, which are where maps err most
 constexpr std::size_t kMostPartsOfWhole = 48;   // for more parts, 64 blocks along the longest edge are too coarse
 constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
 constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is for the 99th percentile
@@ -147,7 +148,7 @@ struct BuildInput {
   const geometry::MeshQuery& skin;
   const BuildConfig& config;
   ErrorBudget budget;
-  bool uncut = false;  // one brick for all, in place of pieces
+  bool uncut = false;  // one map for all, in place of pieces
 };
 
 bool wants_pieces(const BuildConfig& config, std::size_t nodes) {
@@ -201,14 +202,6 @@ Expected<geometry::FitResult> fit_source(const PartSource& source, const BuildIn
   return fit;
 }
 
-MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
-  const Pose X_QO = X_OQ.inverse();
-  Eigen::AlignedBox3d box_Q;
-  for (const Vec3& p_O : points_O)
-    box_Q.extend(X_QO * p_O);
-  return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
-}
-
 /// A part, with what is needed to make a finer map of it.
 struct BuiltPart {
   collision::Part part;
@@ -222,8 +215,8 @@ MapChoice map_for(const BuiltPart& built, const BuildInput& input, std::size_t m
   MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
   candidates.must = must;
   if (input.uncut) {
-    candidates.radial = false;
     candidates.at_most = kMostBytesUncut;
+    candidates.but_for = kStrayUncut;
   }
   if (config.fields) candidates.field_of = &input.skin_mesh;
   // A map that is not exact enough may grow as far as it must; one that only misses a thin layer may not.
@@ -247,9 +240,7 @@ Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input,
   const auto fit = fit_source(source, input);
   if (!fit) return tl::unexpected(fit.error());
   BuiltPart built;
-  built.frame = input.uncut ? frame_around(source.bound_points_O, fit->X_OQ)
-                            : choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O,
-                                           fit->X_OQ);
+  built.frame = choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
   built.probes = make_probes(input.solid, input.skin, source.places, input.budget,
                              input.uncut ? source.places.size() : kProbesPerPart, input.config.seed + 2);
   report.name = source.name;
@@ -417,6 +408,14 @@ PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const Par
   return whole;
 }
 
+MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
+  const Pose X_QO = X_OQ.inverse();
+  Eigen::AlignedBox3d box_Q;
+  for (const Vec3& p_O : points_O)
+    box_Q.extend(X_QO * p_O);
+  return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
+}
+
 /// One brick in place of all parts, where it meets the budget and is not much larger: a query then asks once, not part after part. Nothing
 /// where the parts are better.
 std::optional<collision::Part> make_whole(const PartSource& whole, std::span<const collision::Part> parts,
@@ -504,12 +503,12 @@ Expected<Draft> make_draft(std::span<const geometry::NamedMesh> nodes, const Bui
     draft.parts.push_back(std::move(one->part));
     draft.built.push_back(std::move(*one));
   }
-  refine(draft.parts, draft.built, draft.witnesses, input, draft.reports);
+  if (!input.uncut) refine(draft.parts, draft.built, draft.witnesses, input, draft.reports);
   return draft;
 }
 
-/// What was open or overlapped nearly always ends as one brick, however it is cut: asking rays and winding numbers for the maps of pieces
-/// would take most of the time. A closed mesh is cut first, for its pieces may be smaller.
+/// What was open or overlapped mostly ends with one map, however it is cut, and asking for winding numbers along the rays of pieces' maps
+/// would take nine tenths of the time. A closed mesh is cut first, for its pieces may be smaller.
 bool may_stay_uncut(const BuildConfig& config, std::span<const geometry::SolidMesh> solids) {
   const geometry::SolidMesh& first = solids.front();
   return config.bricks && solids.size() == 1 && wants_pieces(config, 1) &&
