@@ -77,11 +77,12 @@ class Trials {
 
   /// Tries bricks that are smaller than the best map so far.
   void try_bricks() {
+    const MapFrame& frame = allowed_.brick_frame != nullptr ? *allowed_.brick_frame : frame_;
     Trend trend;
     for (const int n : kBrickBlocks) {
       const bool hopeless = trend.rules_out(kBrickBlocks.back(), budget_);
       if (trend.rules_out(n, budget_) && !hopeless) continue;
-      const collision::DistanceBrick::Grid grid = brick_grid(frame_, n);
+      const collision::DistanceBrick::Grid grid = brick_grid(frame, n);
       if (!collision::DistanceBrick::is_valid(grid)) return;
       const std::size_t most = hopeless ? std::min(allowed_.at_most, kMostWithoutHope) : allowed_.at_most;
       const std::size_t limit = best_.met ? std::min(most, best_.map.bytes() - 1) : most;

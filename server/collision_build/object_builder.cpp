@@ -202,10 +202,19 @@ Expected<geometry::FitResult> fit_source(const PartSource& source, const BuildIn
   return fit;
 }
 
+MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
+  const Pose X_QO = X_OQ.inverse();
+  Eigen::AlignedBox3d box_Q;
+  for (const Vec3& p_O : points_O)
+    box_Q.extend(X_QO * p_O);
+  return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
+}
+
 /// A part, with what is needed to make a finer map of it.
 struct BuiltPart {
   collision::Part part;
   MapFrame frame;
+  MapFrame box;  // the tightest frame, whatever is seen from its middle
   std::vector<Probe> probes;
 };
 
@@ -217,6 +226,7 @@ MapChoice map_for(const BuiltPart& built, const BuildInput& input, std::size_t m
   if (input.uncut) {
     candidates.at_most = kMostBytesUncut;
     candidates.but_for = kStrayUncut;
+    candidates.brick_frame = &built.box;
   }
   if (config.fields) candidates.field_of = &input.skin_mesh;
   // A map that is not exact enough may grow as far as it must; one that only misses a thin layer may not.
@@ -241,6 +251,7 @@ Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input,
   if (!fit) return tl::unexpected(fit.error());
   BuiltPart built;
   built.frame = choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
+  built.box = frame_around(source.bound_points_O, fit->X_OQ);
   built.probes = make_probes(input.solid, input.skin, source.places, input.budget,
                              input.uncut ? source.places.size() : kProbesPerPart, input.config.seed + 2);
   report.name = source.name;
@@ -406,14 +417,6 @@ PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const Par
     whole.spacing_m = std::max(whole.spacing_m, source.spacing_m);
   }
   return whole;
-}
-
-MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
-  const Pose X_QO = X_OQ.inverse();
-  Eigen::AlignedBox3d box_Q;
-  for (const Vec3& p_O : points_O)
-    box_Q.extend(X_QO * p_O);
-  return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
 }
 
 /// One brick in place of all parts, where it meets the budget and is not much larger: a query then asks once, not part after part. Nothing
