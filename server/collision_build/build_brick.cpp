@@ -59,8 +59,9 @@ class LatticeDistances {
       if (wanted_[i] != 0 && distance_m_[i] == kNotAsked) fresh.push_back(i);
     }
     for_each_index((fresh.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+      geometry::SurfacePoint found;
       for (std::size_t k = kChunk * chunk; k < std::min(fresh.size(), kChunk * (chunk + 1)); ++k)
-        measure_one(fresh[k]);
+        found = measure_one(fresh[k], found);
     });
     for (const std::size_t i : fresh) {
       if (side_[i] == Side::unknown) settle_sides(i);
@@ -86,12 +87,14 @@ class LatticeDistances {
     return X_OQ_ * (grid_.origin_Q.cast<double>() + spacing_m() * Vec3(node[0], node[1], node[2]));
   }
 
-  void measure_one(std::size_t i) {
+  /// `near`: what was found for the node before, which mostly lies beside this one.
+  geometry::SurfacePoint measure_one(std::size_t i, const geometry::SurfacePoint& near) {
     const Vec3 p_O = place(i);
-    const geometry::SurfacePoint found = skin_.closest(p_O);
+    const geometry::SurfacePoint found = skin_.closest(p_O, near);
     const double above_m = std::abs(skin_.triangle_normal(found.triangle).dot(p_O - found.p));
     nearest_[i] = {found.triangle, above_m >= kOnFace * found.distance_m};
     distance_m_[i] = static_cast<float>(found.distance_m);
+    return found;
   }
 
   /// If the surface lay between two nodes, it would be no farther from them, together, than they are from each other. So most nodes are on

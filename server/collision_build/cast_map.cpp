@@ -27,13 +27,19 @@ std::vector<SurfacePlace> some_of(std::span<const SurfacePlace> all, std::size_t
   return chosen;
 }
 
-/// The share of the witnesses that are seen from the centre through the solid alone.
-double seen_share(const Solid& solid, const Vec3& center, std::span<const SurfacePlace> all) {
-  std::size_t seen = 0;
+/// The share of the witnesses that are seen from the centre through the solid alone. Stops where `is_too_few` is true of the most that the
+/// share can still become.
+template <class IsTooFew>
+double seen_share(const Solid& solid, const Vec3& center, std::span<const SurfacePlace> all,
+                  const IsTooFew& is_too_few) {
+  std::size_t hidden = 0;
+  const auto share = [&] { return static_cast<double>(all.size() - hidden) / static_cast<double>(all.size()); };
   for (const SurfacePlace& w : all) {
-    if (solid.walk(center, w.p_O - center, 2) > 0.98 && w.n_O.dot(w.p_O - center) > 0) ++seen;
+    if (w.n_O.dot(w.p_O - center) > 0 && solid.walk(center, w.p_O - center, 2) > 0.98) continue;
+    ++hidden;
+    if (is_too_few(share())) break;
   }
-  return all.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(all.size());
+  return all.empty() ? 0 : share();
 }
 
 /// Middles of chords through the part, straight in from its surface.
@@ -63,8 +69,12 @@ Vec3 choose_center(const Solid& solid, std::size_t node, std::span<const Surface
   Vec3 best = own;
   double best_score = -1;
   for (std::size_t i = 0; i < centers.size(); ++i) {
-    double score = seen_share(solid, centers[i], witnesses) + kClearanceWeight * clearance[i] / widest;
-    if (centers[i] == own) score += kOwnCenterBonus;
+    const auto score_of = [&](double share) {
+      const double score = share + kClearanceWeight * clearance[i] / widest;
+      return centers[i] == own ? score + kOwnCenterBonus : score;
+    };
+    const double score =
+        score_of(seen_share(solid, centers[i], witnesses, [&](double share) { return score_of(share) <= best_score; }));
     if (score > best_score) {
       best_score = score;
       best = centers[i];

@@ -45,10 +45,13 @@ struct MapError {
 struct MapCandidates {
   bool radial = true;
   bool brick = true;
-  int only_resolution = 0;                   ///< of a radial map; 0: any
-  std::size_t more_than = 0;                 ///< bytes: only larger maps
-  std::size_t at_most = 128U << 10;          ///< bytes
-  std::span<const Probe> must = {};          ///< points none of which may be missed or wrong, besides the budget
+  int only_resolution = 0;           ///< of a radial map; 0: any
+  std::size_t more_than = 0;         ///< bytes: only larger maps
+  std::size_t at_most = 128U << 10;  ///< bytes
+  std::span<const Probe> must = {};  ///< points none of which may be missed or wrong, besides the budget
+  double but_for = 0;                ///< except for this share of them
+  const MapFrame* brick_frame =
+      nullptr;  ///< of bricks, where another one than that of radial maps is tighter; has their X_OQ
   const geometry::Mesh* field_of = nullptr;  ///< the skin's mesh: a DistanceField of it comes before the others
 };
 

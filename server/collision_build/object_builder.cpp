@@ -25,7 +25,7 @@ constexpr std::size_t kProbesPerPart = 600;  // for the choice of its map
 constexpr std::size_t kReportProbes = 400;   // per part, for the object's error
 constexpr int kRefinements = 4;              // rounds, at most
 constexpr std::size_t kWitnessesPerPart = 12'000;
-constexpr std::size_t kWitnessesOfField = 4;  // as if it were so many parts
+constexpr std::size_t kWitnessesAlone = 4;  // of a map that must find them all: as if it were so many parts
 constexpr std::size_t kMostWitnesses = 120'000;
 constexpr double kWitnessDepth = 2.5;     // times what must not be missed
 constexpr std::size_t kChunk = 1000;      // witnesses
@@ -33,6 +33,8 @@ constexpr double kMostGrowth = 2.5;       // of a map's bytes in one round, for 
 constexpr std::size_t kWorthOfWhole = 2;  // a brick may take this many times the bytes of the parts that it replaces
 constexpr std::size_t kBytesOfPart =
     480;  // beside its map; fixed, so that no member that is added changes what is built
+constexpr std::size_t kMostBytesUncut = 262'144;
+constexpr double kStrayUncut = 5e-4;            // of the witnesses, which are where maps err most
 constexpr std::size_t kMostPartsOfWhole = 48;   // for more parts, 64 blocks along the longest edge are too coarse
 constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
 constexpr double kFaultShare = 0.01;            // of a part's probes: the budget is for the 99th percentile
@@ -146,6 +148,7 @@ struct BuildInput {
   const geometry::MeshQuery& skin;
   const BuildConfig& config;
   ErrorBudget budget;
+  bool uncut = false;  // one map for all, in place of pieces
 };
 
 bool wants_pieces(const BuildConfig& config, std::size_t nodes) {
@@ -156,7 +159,7 @@ bool wants_pieces(const BuildConfig& config, std::size_t nodes) {
 /// The parts to be, in the order of the nodes.
 Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMesh> nodes, const BuildInput& input) {
   std::vector<geometry::Decomposition> cuts(nodes.size());
-  if (wants_pieces(input.config, nodes.size())) {
+  if (!input.uncut && wants_pieces(input.config, nodes.size())) {
     geometry::DecomposeConfig config;
     config.max_concavity = input.config.max_concavity;
     config.max_parts = input.config.max_pieces;
@@ -199,10 +202,19 @@ Expected<geometry::FitResult> fit_source(const PartSource& source, const BuildIn
   return fit;
 }
 
+MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
+  const Pose X_QO = X_OQ.inverse();
+  Eigen::AlignedBox3d box_Q;
+  for (const Vec3& p_O : points_O)
+    box_Q.extend(X_QO * p_O);
+  return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
+}
+
 /// A part, with what is needed to make a finer map of it.
 struct BuiltPart {
   collision::Part part;
   MapFrame frame;
+  MapFrame box;  // the tightest frame, whatever is seen from its middle
   std::vector<Probe> probes;
 };
 
@@ -211,6 +223,11 @@ MapChoice map_for(const BuiltPart& built, const BuildInput& input, std::size_t m
   const BuildConfig& config = input.config;
   MapCandidates candidates{config.radial_maps, config.bricks, config.map_resolution, more_than};
   candidates.must = must;
+  if (input.uncut) {
+    candidates.at_most = kMostBytesUncut;
+    candidates.but_for = kStrayUncut;
+    candidates.brick_frame = &built.box;
+  }
   if (config.fields) candidates.field_of = &input.skin_mesh;
   // A map that is not exact enough may grow as far as it must; one that only misses a thin layer may not.
   if (more_than > 0 && !may_grow)
@@ -234,8 +251,9 @@ Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input,
   if (!fit) return tl::unexpected(fit.error());
   BuiltPart built;
   built.frame = choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
-  built.probes =
-      make_probes(input.solid, input.skin, source.places, input.budget, kProbesPerPart, input.config.seed + 2);
+  built.box = frame_around(source.bound_points_O, fit->X_OQ);
+  built.probes = make_probes(input.solid, input.skin, source.places, input.budget,
+                             input.uncut ? source.places.size() : kProbesPerPart, input.config.seed + 2);
   report.name = source.name;
   report.fit = fit->report;
   report.samples = source.samples_O.size();
@@ -401,14 +419,6 @@ PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const Par
   return whole;
 }
 
-MapFrame frame_around(std::span<const Vec3> points_O, const Pose& X_OQ) {
-  const Pose X_QO = X_OQ.inverse();
-  Eigen::AlignedBox3d box_Q;
-  for (const Vec3& p_O : points_O)
-    box_Q.extend(X_QO * p_O);
-  return {X_OQ, box_Q.center(), 0.5 * box_Q.sizes()};
-}
-
 /// One brick in place of all parts, where it meets the budget and is not much larger: a query then asks once, not part after part. Nothing
 /// where the parts are better.
 std::optional<collision::Part> make_whole(const PartSource& whole, std::span<const collision::Part> parts,
@@ -465,6 +475,60 @@ std::vector<Probe> make_report_probes(std::span<const PartSource> sources, const
   return all;
 }
 
+/// An object that still lacks its samples.
+struct Draft {
+  std::vector<PartSource> sources;
+  std::vector<Probe> witnesses;
+  std::vector<BuiltPart> built;
+  std::vector<collision::Part> parts;
+  std::vector<PartReport> reports;
+};
+
+Expected<Draft> make_draft(std::span<const geometry::NamedMesh> nodes, const BuildInput& input,
+                           const PartDone& on_part) {
+  auto sources = find_sources(nodes, input);
+  if (!sources) return tl::unexpected(sources.error());
+  Draft draft;
+  draft.sources = std::move(*sources);
+  const std::size_t count = draft.sources.size();
+  const bool is_alone = input.uncut || (input.config.fields && count == 1);
+  draft.witnesses = make_witnesses(input, is_alone ? kWitnessesAlone : count);
+  const std::span<const Probe> must = is_alone ? std::span(draft.witnesses) : std::span<const Probe>();
+  std::vector<Expected<BuiltPart>> tried(count);
+  draft.reports.resize(count);
+  std::atomic<std::size_t> done{0};
+  for_each_index(count, [&](std::size_t i) {
+    tried[i] = make_part(draft.sources[i], input, must, draft.reports[i]);
+    if (on_part) on_part(++done, count);
+  });
+  for (auto& one : tried) {
+    if (!one) return tl::unexpected(one.error());
+    draft.parts.push_back(std::move(one->part));
+    draft.built.push_back(std::move(*one));
+  }
+  if (!input.uncut) refine(draft.parts, draft.built, draft.witnesses, input, draft.reports);
+  return draft;
+}
+
+/// What was open or overlapped mostly ends with one map, however it is cut, and asking for winding numbers along the rays of pieces' maps
+/// would take nine tenths of the time. A closed mesh is cut first, for its pieces may be smaller.
+bool may_stay_uncut(const BuildConfig& config, std::span<const geometry::SolidMesh> solids) {
+  const geometry::SolidMesh& first = solids.front();
+  return config.bricks && solids.size() == 1 && wants_pieces(config, 1) &&
+         (first.open_edges > 0 || first.hidden_area_m2 > 0);
+}
+
+Expected<Draft> make_best_draft(std::span<const geometry::NamedMesh> nodes, std::span<const geometry::SolidMesh> solids,
+                                const BuildInput& input, const PartDone& on_part) {
+  if (may_stay_uncut(input.config, solids)) {
+    BuildInput uncut = input;
+    uncut.uncut = true;
+    auto draft = make_draft(nodes, uncut, on_part);
+    if (draft && draft->reports.front().met) return draft;
+  }
+  return make_draft(nodes, input, on_part);
+}
+
 }  // namespace
 
 Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> nodes, const BuildConfig& config,
@@ -480,41 +544,27 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
   const double diagonal_m = diagonal_of(meshes);
   const BuildInput input{meshes, solid, skin_mesh, skin, config, budget_of(config, diagonal_m)};
 
-  auto sources = find_sources(nodes, input);
-  if (!sources) return tl::unexpected(sources.error());
-  const bool is_one_field = config.fields && sources->size() == 1;  // it must find all witnesses by itself
-  const std::vector<Probe> witnesses = make_witnesses(input, is_one_field ? kWitnessesOfField : sources->size());
-  const std::span<const Probe> must = is_one_field ? std::span(witnesses) : std::span<const Probe>();
-  std::vector<Expected<BuiltPart>> tried(sources->size());
-  BuildReport full_report;
-  full_report.parts.resize(sources->size());
-  std::atomic<std::size_t> done{0};
-  for_each_index(sources->size(), [&](std::size_t i) {
-    tried[i] = make_part((*sources)[i], input, must, full_report.parts[i]);
-    if (on_part) on_part(++done, sources->size());
-  });
+  auto draft = make_best_draft(nodes, *solids, input, on_part);
+  if (!draft) return tl::unexpected(draft.error());
   collision::Object object;
-  std::vector<BuiltPart> built;
-  for (auto& one : tried) {
-    if (!one) return tl::unexpected(one.error());
-    object.parts.push_back(std::move(one->part));
-    built.push_back(std::move(*one));
-  }
-  refine(object.parts, built, witnesses, input, full_report.parts);
+  object.parts = std::move(draft->parts);
+  BuildReport full_report;
+  full_report.parts = std::move(draft->reports);
+  std::vector<PartSource>& sources = draft->sources;
   std::vector<Probe> report_probes;
-  if (report != nullptr) report_probes = make_report_probes(*sources, input);
+  if (report != nullptr) report_probes = make_report_probes(sources, input);
   if (may_be_whole(config, nodes.size(), object.parts.size())) {
-    PartSource whole = unite(nodes, *sources, input);
+    PartSource whole = unite(nodes, sources, input);
     PartReport whole_report;
-    if (auto part = make_whole(whole, object.parts, built, witnesses, input, whole_report)) {
+    if (auto part = make_whole(whole, object.parts, draft->built, draft->witnesses, input, whole_report)) {
       object.parts = {std::move(*part)};
       full_report.parts = {std::move(whole_report)};
-      *sources = {std::move(whole)};
+      sources = {std::move(whole)};
     }
   }
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
     full_report.bytes += object.parts[i].map.bytes();
-    collision::append_samples(object, static_cast<std::uint16_t>(i), std::move((*sources)[i].samples_O));
+    collision::append_samples(object, static_cast<std::uint16_t>(i), std::move(sources[i].samples_O));
   }
   collision::close_clusters(object);
 

@@ -71,9 +71,10 @@ void DistanceGrid::measure_near(const MeshQuery& query, const std::vector<std::u
                                 std::vector<Vec3f>& closest) {
   const std::size_t slice = index(0, 0, 1);
   for_each_index(static_cast<std::size_t>(size_[2]), [&](std::size_t z) {
+    SurfacePoint found;
     for (std::size_t node = z * slice; node < (z + 1) * slice; ++node) {
       if (near[node] == 0) continue;
-      const SurfacePoint found = query.closest(position(node));
+      found = query.closest(position(node), found);
       distance_m_[node] = static_cast<float>(found.distance_m);
       closest[node] = found.p.cast<float>();
     }

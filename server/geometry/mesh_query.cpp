@@ -43,27 +43,6 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + ab * (vb / sum) + ac * (vc / sum);
 }
 
-/// A ray for slab tests.
-struct SlabRay {
-  Vec3 origin;
-  Vec3 inverse;  // 1/direction; large where a component is zero
-
-  SlabRay(const Vec3& from, const Vec3& direction)
-      : origin(from), inverse(direction.unaryExpr([](double d) { return 1 / (std::abs(d) < 1e-300 ? 1e-300 : d); })) {}
-
-  [[nodiscard]] bool meets(const Eigen::AlignedBox3d& box) const {
-    const Vec3 to_min = (box.min() - origin).cwiseProduct(inverse);
-    const Vec3 to_max = (box.max() - origin).cwiseProduct(inverse);
-    const double enters = std::max(to_min.cwiseMin(to_max).maxCoeff(), 0.0);
-    return enters <= to_min.cwiseMax(to_max).minCoeff();
-  }
-};
-
-Eigen::AlignedBox3d padded(const Eigen::AlignedBox3d& box) {
-  const Vec3 pad = 1e-12 * (box.min().array().abs() + box.max().array().abs() + 1e-12);
-  return {box.min() - pad, box.max() + pad};
-}
-
 /// From p = 0; positive where the triangle shows its inner side (Van Oosterom & Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double la = a.norm();
@@ -84,12 +63,13 @@ MeshQuery::MeshQuery(const Mesh& mesh, Inside inside) : slot_of_(mesh.triangles.
   }
   if (triangles_.empty()) return;
   nodes_.reserve(triangles_.size());
-  nodes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(triangles_.size())});
+  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(triangles_.size())});
   // Children are appended, so this loop reaches them too.
   for (std::uint32_t n = 0; n < nodes_.size(); ++n)
     split(n);
   for (std::uint32_t slot = 0; slot < triangles_.size(); ++slot)
     slot_of_[triangles_[slot].index] = slot;
+  add_quads();
   if (inside == Inside::by_winding_number) add_moments();
 }
 
@@ -180,7 +160,6 @@ void MeshQuery::split(std::uint32_t n) {
     centers.extend(Vec3(t.a + t.b + t.c));
   }
   nodes_[n].box = box;
-  nodes_[n].padded = padded(box);
   if (count <= kLeafTriangles) return;
   Eigen::Index axis = 0;
   centers.sizes().maxCoeff(&axis);
@@ -192,42 +171,116 @@ void MeshQuery::split(std::uint32_t n) {
     return cl < cr || (cl == cr && l.index < r.index);
   });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({{}, {}, first, half});
-  nodes_.push_back({{}, {}, first + half, count - half});
+  nodes_.push_back({{}, first, half});
+  nodes_.push_back({{}, first + half, count - half});
   nodes_[n].first = children;
   nodes_[n].count = 0;
 }
 
+void MeshQuery::add_quads() {
+  reach_ = std::max(nodes_[0].box.min().cwiseAbs().maxCoeff(), nodes_[0].box.max().cwiseAbs().maxCoeff());
+  quads_.reserve(nodes_.size());
+  quads_.emplace_back();
+  // Children are appended, so this loop reaches them too.
+  for (std::size_t q = 0; q < quads_.size(); ++q) {
+    Quad quad;
+    quad.node = quads_[q].node;
+    const Node& node = nodes_[quad.node];
+    quad.is_leaf = node.count > 0;
+    const auto put = [&](const Eigen::AlignedBox3d& box, std::uint32_t child) {
+      quad.boxes.set(quad.count, box);
+      quad.child[quad.count++] = child;
+    };
+    const auto put_node = [&](std::uint32_t n) {
+      put(nodes_[n].box, static_cast<std::uint32_t>(quads_.size()));
+      quads_.emplace_back().node = n;
+    };
+    const auto put_under = [&](std::uint32_t n) {
+      if (nodes_[n].count > 0) return put_node(n);
+      put_node(nodes_[n].first);
+      put_node(nodes_[n].first + 1);
+    };
+    for (std::uint32_t slot = node.first; quad.is_leaf && slot < node.first + node.count; ++slot) {
+      const Triangle& t = triangles_[slot];
+      put(Eigen::AlignedBox3d(t.a).extend(t.b).extend(t.c), slot);
+    }
+    if (!quad.is_leaf) {
+      put_under(node.first);
+      quad.of_first = quad.count;
+      put_under(node.first + 1);
+    }
+    for (Eigen::Index lane = quad.count; lane < 4; ++lane)
+      quad.boxes.set(lane, node.box);
+    quads_[q] = quad;
+  }
+}
+
 SurfacePoint MeshQuery::closest(const Vec3& p, double max_distance_m) const {
+  return closest_within(p, max_distance_m * max_distance_m);
+}
+
+SurfacePoint MeshQuery::closest(const Vec3& p, const SurfacePoint& near) const {
+  if (std::isinf(near.distance_m)) return closest(p);
+  constexpr double kRoom = 1 + 1e-9;  // ties are decided as they are without a limit
+  const Triangle& t = triangles_[slot_of_[near.triangle]];
+  return closest_within(p, kRoom * (closest_on_triangle(p, t.a, t.b, t.c) - p).squaredNorm());
+}
+
+std::array<std::uint8_t, 4> MeshQuery::order_of(const Quad& quad, const Vec3& p) const {
+  std::array<std::uint8_t, 4> order{};
+  std::uint8_t filled = 0;
+  const auto first_is_nearer = [&](std::uint32_t first) {
+    return nodes_[first].box.squaredExteriorDistance(p) < nodes_[first + 1].box.squaredExteriorDistance(p);
+  };
+  const auto put = [&](std::uint8_t from, std::uint8_t to, std::uint32_t child) {
+    const bool in_turn = to == from + 1 || first_is_nearer(nodes_[child].first);
+    for (std::uint8_t i = from; i < to; ++i)
+      order[filled++] = static_cast<std::uint8_t>(in_turn ? i : from + to - 1 - i);
+  };
+  const std::uint32_t first = nodes_[quad.node].first;
+  const bool in_turn = first_is_nearer(first);
+  if (in_turn) put(0, quad.of_first, first);
+  put(quad.of_first, quad.count, first + 1);
+  if (!in_turn) put(0, quad.of_first, first);
+  return order;
+}
+
+SurfacePoint MeshQuery::closest_within(const Vec3& p, double best_square) const {
   SurfacePoint best;
   if (nodes_.empty()) return best;
+  const QuadPlace place(p, reach_);
   struct Open {
-    std::uint32_t node;
-    double square;  // of the distance to its box
+    std::uint32_t quad = 0;
+    float square = 0;  // of the distance to its box, or less
   };
-  double best_square = max_distance_m * max_distance_m;
   std::array<Open, kStackDepth> stack;
   std::size_t top = 0;
-  stack[top++] = {0, nodes_[0].box.squaredExteriorDistance(p)};
+  stack[top++] = {};
+  const auto limit = [&] { return static_cast<float>(best_square) * (1 + 2 * QuadPlace::kSlack); };
   while (top > 0) {
     const Open open = stack[--top];
-    if (open.square > best_square) continue;
-    const Node& node = nodes_[open.node];
-    if (node.count == 0) {
-      const double d0 = nodes_[node.first].box.squaredExteriorDistance(p);
-      const double d1 = nodes_[node.first + 1].box.squaredExteriorDistance(p);
-      const Open first{node.first, d0};
-      const Open second{node.first + 1, d1};
-      stack[top++] = d0 < d1 ? second : first;  // the nearer child is taken first
-      stack[top++] = d0 < d1 ? first : second;
+    if (open.square > limit()) continue;
+    const Quad& quad = quads_[open.quad];
+    const Eigen::Array4f squares = place.squares(quad.boxes);
+    if (!quad.is_leaf) {
+      const auto keeps = [&](std::uint8_t lane) { return lane < quad.count && squares[lane] <= limit(); };
+      const auto push = [&](std::uint8_t lane) { stack[top++] = {quad.child[lane], squares[lane]}; };
+      const int kept = keeps(0) + keeps(1) + keeps(2) + keeps(3);
+      const std::array<std::uint8_t, 4> order = kept > 1 ? order_of(quad, p) : std::array<std::uint8_t, 4>{0, 1, 2, 3};
+      for (std::size_t i = quad.count; i-- > 0;) {
+        if (keeps(order[i])) push(order[i]);
+      }
       continue;
     }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Vec3 q = closest_on_triangle(p, triangles_[i].a, triangles_[i].b, triangles_[i].c);
+    if (nodes_[quad.node].box.squaredExteriorDistance(p) > best_square) continue;
+    for (std::size_t lane = 0; lane < quad.count; ++lane) {
+      if (squares[static_cast<Eigen::Index>(lane)] > limit()) continue;
+      const Triangle& t = triangles_[quad.child[lane]];
+      const Vec3 q = closest_on_triangle(p, t.a, t.b, t.c);
       const double square = (q - p).squaredNorm();
       if (square < best_square || (square == best_square && std::isinf(best.distance_m))) {
         best_square = square;
-        best = {q, std::sqrt(square), triangles_[i].index};
+        best = {q, std::sqrt(square), t.index};
       }
     }
   }
@@ -237,22 +290,26 @@ SurfacePoint MeshQuery::closest(const Vec3& p, double max_distance_m) const {
 template <class Found>
 void MeshQuery::cast_each(const Vec3& origin, const Vec3& direction, const Found& found) const {
   if (nodes_.empty()) return;
-  const SlabRay ray(origin, direction);
+  const QuadRay ray(origin, direction, reach_);
   const double square = direction.squaredNorm();
   std::array<std::uint32_t, kStackDepth> stack;
   std::size_t top = 0;
-  if (ray.meets(nodes_[0].padded)) stack[top++] = 0;
+  stack[top++] = 0;
+  Eigen::Array4f enters;
+  Eigen::Array4f leaves;
   while (top > 0) {
-    const Node& node = nodes_[stack[--top]];
-    if (node.count == 0) {
-      stack[top] = node.first;
-      top += ray.meets(nodes_[node.first].padded) ? 1 : 0;
-      stack[top] = node.first + 1;
-      top += ray.meets(nodes_[node.first + 1].padded) ? 1 : 0;
+    const Quad& quad = quads_[stack[--top]];
+    ray.spans(quad.boxes, enters, leaves);
+    if (!quad.is_leaf) {
+      for (std::size_t lane = 0; lane < 4; ++lane) {  // without branches, which could not be foreseen
+        stack[top] = quad.child[lane];
+        top += lane < quad.count && enters[static_cast<Eigen::Index>(lane)] <= leaves[static_cast<Eigen::Index>(lane)];
+      }
       continue;
     }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle& tri = triangles_[i];
+    for (std::size_t lane = 0; lane < quad.count; ++lane) {
+      if (enters[static_cast<Eigen::Index>(lane)] > leaves[static_cast<Eigen::Index>(lane)]) continue;
+      const Triangle& tri = triangles_[quad.child[lane]];
       // Signed volumes: an edge shared by two triangles gives both the same number, so no ray slips between them.
       const Vec3 a = tri.a - origin;
       const Vec3 b = tri.b - origin;

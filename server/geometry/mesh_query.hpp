@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/base/math.hpp"
+#include "server/geometry/box_quad.hpp"
 #include "server/geometry/mesh.hpp"
 
 namespace mechane::geometry {
@@ -36,6 +37,9 @@ class MeshQuery {
   [[nodiscard]] SurfacePoint closest(const Vec3& p,
                                      double max_distance_m = std::numeric_limits<double>::infinity()) const;
 
+  /// The same answer as closest(p), sooner where `near` is the answer for a place nearby.
+  [[nodiscard]] SurfacePoint closest(const Vec3& p, const SurfacePoint& near) const;
+
   /// Distance to the surface, negative where contains() holds.
   [[nodiscard]] double signed_distance(const Vec3& p) const;
 
@@ -59,9 +63,17 @@ class MeshQuery {
  private:
   struct Node {
     Eigen::AlignedBox3d box;
-    Eigen::AlignedBox3d padded;  // for rays, whose arithmetic rounds
-    std::uint32_t first = 0;     // of the leaf's triangles, or of two child nodes that lie side by side
-    std::uint32_t count = 0;     // 0: an inner node
+    std::uint32_t first = 0;  // of the leaf's triangles, or of two child nodes that lie side by side
+    std::uint32_t count = 0;  // 0: an inner node
+  };
+  /// The triangles of a leaf; or two generations of nodes under one: each child's children, or the child where it is a leaf.
+  struct Quad {
+    BoxQuad boxes;
+    std::uint32_t node = 0;
+    std::array<std::uint32_t, 4> child{};  // quads; in a leaf: slots of triangles
+    std::uint8_t count = 0;
+    std::uint8_t of_first = 0;  // so many of them stand under the node's first child
+    bool is_leaf = false;
   };
   struct Triangle {
     Vec3 a, b, c;
@@ -82,6 +94,10 @@ class MeshQuery {
     [[nodiscard]] double solid_angle(const Vec3& r) const;
   };
   void split(std::uint32_t node);
+  void add_quads();
+  [[nodiscard]] SurfacePoint closest_within(const Vec3& p, double square) const;
+  /// Lanes in the order of visit: the nearer child's before the other one's, and so of its children.
+  [[nodiscard]] std::array<std::uint8_t, 4> order_of(const Quad& quad, const Vec3& p) const;
   /// Calls `found(hit)` for each hit with t > 0, in no order.
   template <class Found>
   void cast_each(const Vec3& origin, const Vec3& direction, const Found& found) const;
@@ -90,6 +106,8 @@ class MeshQuery {
   [[nodiscard]] Moments moments_of_children(const Node& node) const;
 
   std::vector<Node> nodes_;
+  std::vector<Quad> quads_;
+  double reach_ = 0;  // the largest coordinate
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> slot_of_;  // mesh triangle -> triangles_
   std::vector<Moments> moments_;        // of each node; empty: inside by rays

@@ -159,9 +159,9 @@ inline geometry::Mesh screw(std::uint32_t around = 24, std::uint32_t along = 36)
   return mesh;
 }
 
-/// A ball of 0.5 m with shallow bumps.
-inline geometry::Mesh bumpy_ball() {
-  return globe(44, 22, [](double polar, double azimuth) {
+/// A ball of 0.5 m with shallow bumps, of about `around` times `around` triangles.
+inline geometry::Mesh bumpy_ball(std::uint32_t around = 44) {
+  return globe(around, around / 2, [](double polar, double azimuth) {
     const double sine = std::sin(polar);
     return 0.5 * (1 + 0.07 * std::sin(4 * azimuth) * sine * sine + 0.06 * std::cos(5 * polar));
   });

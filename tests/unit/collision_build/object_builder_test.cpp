@@ -10,6 +10,7 @@
 #include "server/geometry/mesh_query.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "tests/support/error_like.hpp"
+#include "tests/support/open_meshes.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
@@ -200,6 +201,20 @@ TEST(BuildObject, AnOpenPartIsClosedOrASheet) {
     EXPECT_EQ(ask(*object, {0.01, 0.01, 0.02}).hit, !sheet);
     EXPECT_FALSE(ask(*object, {0.01, 0.01, -0.055}).hit) << "over the hole";
   }
+}
+
+TEST(BuildObject, AnOpenMeshIsOneMapAndTheSameAgain) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it asks 48,000 winding numbers");
+  const std::vector<NamedMesh> parts = {{"scan", test::ball_with_holes(0.1, 4, 0.3, 1, 24)}};
+  BuildReport report;
+  const auto once = build_object(parts, {}, &report);
+  const auto again = build_object(parts, {});
+  ASSERT_TRUE(once && again);
+  ASSERT_GT(report.solids[0].open_edges, 0U);
+  ASSERT_EQ(once->parts.size(), 1U);
+  EXPECT_EQ(once->parts[0].name, "scan") << "and no piece of it";
+  EXPECT_TRUE(report.parts[0].met);
+  EXPECT_EQ(collision::write_object(*once), collision::write_object(*again));
 }
 
 TEST(BuildObject, WhatEnclosesNothingIsNoSolidIfItMustBeClosed) {

@@ -8,6 +8,7 @@
 #include "server/geometry/mesh_check.hpp"
 #include "server/geometry/superquadric_mesh.hpp"
 #include "tests/support/shapes.hpp"
+#include "tests/support/solids.hpp"
 
 namespace mechane::geometry {
 namespace {
@@ -42,6 +43,57 @@ TEST(MeshQuery, TheTreeFindsWhatAllTrianglesWould) {
       best = std::min(best, MeshQuery(one).closest(p).distance_m);
     }
     EXPECT_DOUBLE_EQ(query.closest(p).distance_m, best);
+  }
+}
+
+/// A ball of faces beside round coordinates, where corners and edges are equally near to many triangles; far from the origin, where floats
+/// are coarse.
+Mesh ball_far_away() {
+  Mesh mesh = test::bumpy_ball(60);
+  for (Vec3& v : mesh.vertices)
+    v = (v * 64).array().round().matrix() / 64 + Vec3(100, -3, 7);
+  return weld(mesh);
+}
+
+TEST(MeshQuery, AnAnswerNearbyChangesNoAnswer) {
+  const Mesh mesh = ball_far_away();
+  const MeshQuery query(mesh);
+  const Eigen::AlignedBox3d box = mesh.bounds();
+  Random random(11);
+  SurfacePoint near;
+  for (int i = 0; i < 3000; ++i) {
+    // On a lattice, so that many places lie right above corners and edges.
+    const Vec3 share(random.unit(), random.unit(), random.unit());
+    const Vec3 p = box.min() + (share * 40).array().round().matrix().cwiseProduct(box.sizes()) / 40;
+    const SurfacePoint alone = query.closest(p);
+    near = query.closest(p, near);
+    ASSERT_EQ(near.triangle, alone.triangle);
+    ASSERT_EQ(near.p, alone.p);
+    ASSERT_EQ(near.distance_m, alone.distance_m);
+  }
+}
+
+TEST(MeshQuery, NoRayMissesWhatATriangleByItselfIsHitBy) {
+  const Mesh mesh = ball_far_away();
+  const MeshQuery query(mesh);
+  std::vector<MeshQuery> alone;
+  for (const auto& t : mesh.triangles)
+    alone.emplace_back(Mesh{{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, {{0, 1, 2}}});
+  Random random(13);
+  std::vector<RayHit> hits;
+  std::vector<RayHit> hit;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 from =
+        mesh.bounds().center() + 0.7 * Vec3(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5);
+    const Vec3 way =
+        i % 3 == 0 ? Vec3(Vec3::Unit(i / 3 % 3)) : Vec3(mesh.vertices[random.below(mesh.vertices.size())] - from);
+    query.cast(from, way, hits);
+    std::size_t count = 0;
+    for (const MeshQuery& one : alone) {
+      one.cast(from, way, hit);
+      count += hit.size();
+    }
+    ASSERT_EQ(hits.size(), count);
   }
 }
 
