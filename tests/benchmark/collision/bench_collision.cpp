@@ -32,9 +32,9 @@ struct Config {
   double budget_pct = 0.3;
   TimingConfig timing;
   std::vector<std::string> methods = {kOurs,         "sqmap_avx512", "sqmap_avx2",   "sqmap_portable", "sqmap_nobrick",
-                                      "sqmap_boxes", "field",        "field_avx2",   "field_portable", "paper",
-                                      "paper_along", "brick",        "brick_scalar", "openvdb",        "bt_sdf",
-                                      "embree",      "fcl_contacts", "fcl_yesno",    "fcl_gjk"};
+                                      "sqmap_boxes", "field",        "field_lists",  "field_avx2",     "field_portable",
+                                      "paper",       "paper_along",  "brick",        "brick_scalar",   "openvdb",
+                                      "bt_sdf",      "embree",       "fcl_contacts", "fcl_yesno",      "fcl_gjk"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
@@ -67,18 +67,20 @@ class Workshop {
     if (name == "sqmap_avx2") return with(name, OurMaps::any, InstructionSet::avx2);
     if (name == "sqmap_portable") return with(name, OurMaps::any, InstructionSet::portable);
     if (name == "sqmap_nobrick") return with(name, OurMaps::radial_only, collision::best_set());
+    if (name == "field_lists") return with(name, OurMaps::fields, collision::best_set(), NearLists::used);
     if (name == "field") return with(name, OurMaps::fields, collision::best_set());
     if (name == "field_avx2") return with(name, OurMaps::fields, InstructionSet::avx2);
     if (name == "field_portable") return with(name, OurMaps::fields, InstructionSet::portable);
     if (name == "sqmap_boxes") return with(name, OurMaps::boxes, collision::best_set());
     return nullptr;
   }
-  MethodPtr with(const std::string& name, OurMaps maps, collision::InstructionSet set) {
+  MethodPtr with(const std::string& name, OurMaps maps, collision::InstructionSet set,
+                 NearLists lists = NearLists::none) {
     if (!collision::is_supported(set)) {
       report_.note(name + " was not run: this processor lacks its instructions");
       return nullptr;
     }
-    return make_sqmap(scene_, name, objects_of(maps), set);
+    return make_sqmap(scene_, name, objects_of(maps), set, lists);
   }
   const std::shared_ptr<const OurObjects>& objects_of(OurMaps maps) {
     std::shared_ptr<const OurObjects>& built = built_[maps];

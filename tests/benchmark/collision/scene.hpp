@@ -65,6 +65,7 @@ struct alignas(64) HandStep {
   std::array<float, kClusters + 16> cluster_x, cluster_y, cluster_z, cluster_r;
   std::array<float, kQuads> quad_x, quad_y, quad_z, quad_r;
   std::array<float, kSegments> segment_x, segment_y, segment_z, segment_r;
+  std::array<std::array<float, kSegments>, 9> segment_R;  ///< of their rotations, row after row
   Vec3f center = Vec3f::Zero();  ///< of a sphere around all
   float radius = 0;
   HandPose X_WS;
