@@ -15,8 +15,8 @@ namespace mechane::collision {
 /// a set and an object, for one thread at a time. The set must stay the same but for the poses of its groups.
 class NearList {
  public:
-  /// One or two ticks of a hand's motion: with a larger one more fours are looked at than is saved.
-  static constexpr float kMargin_m = 0.0005F;
+  /// Some ticks of a hand's motion: with a larger one more fours are looked at than is saved.
+  static constexpr float kMargin_m = 0.001F;
 
   /// Room for a set of so many points, so that a query allocates nothing.
   NearList(std::size_t points, std::size_t groups, float margin_m = kMargin_m)

@@ -203,14 +203,15 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
 }
 
 /// ratio.<peer> and, with a run of our AVX2 kernels, ratio_avx2.<peer>: how many times as long as ours the peer takes. With fields, also
-/// ratio_field.<peer>. ratio_p99 and the like are those of the 99th percentiles.
+/// ratio_field.<peer>, and ratio_field_lists.<peer> where what is near is remembered. Names that end in _p99: of the 99th percentiles.
 void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
   for (const auto& [share, suffix] : {std::pair{0.5, ""}, std::pair{0.99, "_p99"}}) {
     std::map<std::string, double> us;
     for (std::size_t m = 0; m < methods.size(); ++m)
       us[methods[m]->name()] = Quantiles(times[m].all_passes_us()).quantile_us(share);
     for (const auto& [base, prefix] :
-         {std::pair{kOurs, "ratio"}, std::pair{"sqmap_avx2", "ratio_avx2"}, std::pair{kField, "ratio_field"}}) {
+         {std::pair{kOurs, "ratio"}, std::pair{"sqmap_avx2", "ratio_avx2"}, std::pair{kField, "ratio_field"},
+          std::pair{"field_lists", "ratio_field_lists"}}) {
       const auto ours = us.find(base);
       if (ours == us.end() || ours->second <= 0) continue;
       for (const auto& [name, time] : us)
