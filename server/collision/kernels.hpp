@@ -103,8 +103,8 @@ struct GroupsView {
   std::array<const float*, 9> R;
 };
 
-/// Points in clusters of 16, those of a cluster side by side: four quads, with a sphere around each. Strides are from cluster to cluster, in
-/// floats. Without spheres, `quads.x` is null.
+/// Points in clusters of 16, those of a cluster side by side: four quads, with a sphere around each. Strides are from cluster to
+/// cluster, in floats. Without spheres, `quads.x` is null.
 struct PointRuns {
   const float* x;
   const float* y;

@@ -31,10 +31,10 @@ struct Config {
   std::size_t checked = 200;
   double budget_pct = 0.3;
   TimingConfig timing;
-  std::vector<std::string> methods = {kOurs,         "sqmap_avx512", "sqmap_avx2",   "sqmap_portable", "sqmap_nobrick",
-                                      "sqmap_boxes", "field",        "field_lists",  "field_avx2",     "field_portable",
-                                      "paper",       "paper_along",  "brick",        "brick_scalar",   "openvdb",
-                                      "bt_sdf",      "embree",       "fcl_contacts", "fcl_yesno",      "fcl_gjk"};
+  std::vector<std::string> methods = {
+      kOurs,          "sqmap_avx512", "sqmap_avx2",     "sqmap_portable", "sqmap_nobrick", "sqmap_boxes", "field",
+      "field_lists",  "field_avx2",   "field_portable", "paper",          "paper_along",   "brick",       "brick_lists",
+      "brick_scalar", "openvdb",      "bt_sdf",         "embree",         "fcl_contacts",  "fcl_yesno",   "fcl_gjk"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
@@ -49,6 +49,7 @@ class Workshop {
     if (is_ours(name)) return make_ours(name);
     if (name.starts_with("paper")) return make_paper(scene_, name, *objects_of(OurMaps::any));
     if (name == "brick") return make_brick(scene_, accuracy, Simd::best);
+    if (name == "brick_lists") return make_brick(scene_, accuracy, Simd::best, NearLists::used);
     if (name == "brick_scalar") return make_brick(scene_, accuracy, Simd::scalar);
     if (name == "openvdb") return make_openvdb(scene_, accuracy);
     if (name == "bt_sdf") return make_bt_sdf(scene_, accuracy);

@@ -158,4 +158,11 @@ void Scene::fill(std::size_t step, HandStep& out) const {
   }
 }
 
+std::array<const float*, 9> rotations_of(const HandStep& hand) {
+  std::array<const float*, 9> rotations{};
+  for (std::size_t i = 0; i < rotations.size(); ++i)
+    rotations[i] = hand.segment_R[i].data();
+  return rotations;
+}
+
 }  // namespace mechane::benchmark

@@ -113,7 +113,7 @@ MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_pt
                      collision::InstructionSet set, NearLists lists = NearLists::none);
 /// 'paper': the depth as published; 'paper_along': along the normal (see collision::PaperDepth).
 MethodPtr make_paper(const Scene& scene, const std::string& name, const OurObjects& built);
-MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd);
+MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd, NearLists lists = NearLists::none);
 MethodPtr make_openvdb(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_bt_sdf(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_embree(const Scene& scene);

@@ -30,13 +30,6 @@ std::size_t bytes_of(const collision::Object& object) {
   return sum;
 }
 
-std::array<const float*, 9> rotations_of(const HandStep& hand) {
-  std::array<const float*, 9> rotations{};
-  for (std::size_t i = 0; i < rotations.size(); ++i)
-    rotations[i] = hand.segment_R[i].data();
-  return rotations;
-}
-
 class Ours final : public Method {
  public:
   Ours(const Scene& scene, std::string name, std::shared_ptr<const OurObjects> built, collision::InstructionSet set,

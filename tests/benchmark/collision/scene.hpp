@@ -66,10 +66,13 @@ struct alignas(64) HandStep {
   std::array<float, kQuads> quad_x, quad_y, quad_z, quad_r;
   std::array<float, kSegments> segment_x, segment_y, segment_z, segment_r;
   std::array<std::array<float, kSegments>, 9> segment_R;  ///< of their rotations, row after row
-  Vec3f center = Vec3f::Zero();  ///< of a sphere around all
+  Vec3f center = Vec3f::Zero();                           ///< of a sphere around all
   float radius = 0;
   HandPose X_WS;
 };
+
+/// As our query wants them.
+[[nodiscard]] std::array<const float*, 9> rotations_of(const HandStep& hand);
 
 struct Scene {
   std::uint64_t seed = kDefaultSeed;
