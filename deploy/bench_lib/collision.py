@@ -29,11 +29,13 @@ AIMS = {
     "fit.ms.median": (("under", 20),),
 }
 # How each method goes by in tables and plots; what is not here goes by its own name.
-NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_scalar": "int16 brick, scalar", "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
+NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_lists": "int16 brick, near-lists", "brick_scalar": "int16 brick, scalar",
+          "openvdb": "OpenVDB", "bt_sdf": "Bullet SDF",
          "embree": "Embree, exact", "paper": "the paper's search", "paper_along": "the same, depth along the normal", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no",
          "fcl_gjk": "FCL GJK, convex parts", "sqmap_avx512": "Mechane, AVX-512", "sqmap_avx2": "Mechane, AVX2",
          "sqmap_portable": "Mechane, no vectors", "sqmap_nobrick": "Mechane, no bricks", "sqmap_boxes": "Mechane, boxes",
-         "field": "Mechane, fields", "field_avx2": "Mechane, fields, AVX2", "field_portable": "Mechane, fields, no vectors"}
+         "field": "Mechane, fields", "field_lists": "Mechane, fields, near-lists",
+         "field_avx2": "Mechane, fields, AVX2", "field_portable": "Mechane, fields, no vectors"}
 # What thread, staves and valves ask of maps; all models would take most of an hour (build/release/bin/bench_models measures any file).
 SHIPPED = ("archimedes-screw", "ktesibios-pump")
 # Of the meshes beside the repository: those that are open, judged against brute force.

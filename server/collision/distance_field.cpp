@@ -204,7 +204,8 @@ FieldView DistanceField::view() const noexcept {
           {grid.origin_Q.x(), grid.origin_Q.y(), grid.origin_Q.z()},
           inverse_block,
           grid.block_m,
-          data_.slack_m * inverse_block};
+          data_.slack_m * inverse_block,
+          0};
 }
 
 BoxView DistanceField::box() const noexcept {

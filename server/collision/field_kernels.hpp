@@ -105,7 +105,7 @@ struct FieldKernels : FieldLeaves<Lanes> {
     const Point way{u.x - inner.x, u.y - inner.y, u.z - inner.z};
     // Seen from the point of the box that is nearest, everything in the box lies ahead or to the side.
     const F ahead = greater(bound_at(map, place_of(map, inner)) - map.slack, all(0));
-    const F radius = radius_m * map.inverse_block;
+    const F radius = mad(radius_m, all(map.inverse_block), all(map.margin));
     return mad(ahead, ahead, dot(way, way)) <= radius * radius;
   }
 
@@ -164,7 +164,7 @@ struct FieldKernels : FieldLeaves<Lanes> {
 
   /// Points that may lie inside: places in their blocks, the blocks' words, numbers.
   struct Candidates {
-    static constexpr std::size_t kRoom = kLanes * kFieldBatch + kLanes;
+    static constexpr std::size_t kRoom = 4 * kFieldBatch + kLanes;
     alignas(64) std::uint32_t x[kRoom], y[kRoom], z[kRoom], word[kRoom], number[kRoom];
     std::size_t count;
   };
@@ -199,18 +199,10 @@ struct FieldKernels : FieldLeaves<Lanes> {
   }
 
   static std::size_t field_hits(const FieldView& map, const BlockTransform& X, const std::array<float, 9>& R_AQ,
-                                const PointRuns& points, std::uint32_t* clusters, std::size_t count,
+                                const PointRuns& points, std::uint32_t* quads, std::size_t count,
                                 const HitRuns& out) noexcept {
-    alignas(64) std::uint32_t quads[4 * kFieldBatch + kLanes];
-    std::size_t quad_count = 0;
-    if (points.quads.x != nullptr) {
-      quad_count = field_sift(map, X, points.quads, points.quad_stride, clusters, count, quads);
-    } else {
-      for (; quad_count < 4 * count; ++quad_count)
-        quads[quad_count] = 4 * clusters[quad_count / 4] + static_cast<std::uint32_t>(quad_count % 4);
-    }
     Candidates some;
-    collect(map, X, points, quads, quad_count, some);
+    collect(map, X, points, quads, count, some);
     std::size_t found = 0;
     for (std::size_t at = 0; at < some.count; at += kWidth) {
       const std::size_t left = some.count - at;
@@ -230,6 +222,24 @@ struct FieldKernels : FieldLeaves<Lanes> {
       found = next < out.room ? next : out.room;
     }
     return found;
+  }
+
+  static bool have_stayed(const GroupsView& now, const GroupPlaces& then, std::size_t count, float margin_m) noexcept {
+    LaneMask stayed = 0;
+    for (int at = 0; at < static_cast<int>(count); at += kWidth) {
+      F turn = all(0);
+      for (std::size_t i = 0; i < now.R.size(); ++i) {
+        const F change = load(now.R[i], at) - load(then.R[i].data(), at);
+        turn = mad(change, change, turn);
+      }
+      const Point middle = load_points({now.spheres.x, now.spheres.y, now.spheres.z}, at);
+      const Point before = load_points({then.x.data(), then.y.data(), then.z.data()}, at);
+      const Point way{middle.x - before.x, middle.y - before.y, middle.z - before.z};
+      // A rotation moves what lies r from the middle by at most r times the difference of the matrices' norm over the root of 2.
+      const F most = mad(Lanes::root(turn * 0.5F), load(now.spheres.radius, at), Lanes::root(dot(way, way)));
+      stayed |= Lanes::mask_of(most <= margin_m) << at;
+    }
+    return (~stayed & first(count)) == 0;
   }
 
   // The same for parts among others, through ClusterQuery.

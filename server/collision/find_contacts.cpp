@@ -75,16 +75,17 @@ class Direction {
 
   /// Where the target is one field: its kernels go from clusters to hits by themselves.
   void run_field() noexcept {
+    static constexpr std::size_t kMost = kFieldBatch / 4;
     std::size_t next = 0;
     if (collect(next) == 0) return;
     const PlacedPart& part = near_.front();
     const Kernels& kernels = best_kernels();
-    std::array<std::uint32_t, kFieldBatch + kLanes> clusters;
+    std::array<std::uint32_t, kMost + kLanes> clusters;
     std::size_t count = 0;
     for_each_near_group(X_TS_.inverse() * target_.bound_O.center, [&](const ClusterGroup& group) {
       for (LaneMask near = part.near(kernels, group.bounds_O.view(), group.count); near != 0; near &= near - 1) {
         clusters[count++] = group.first_cluster + static_cast<std::uint32_t>(std::countr_zero(near));
-        if (count < kFieldBatch) continue;
+        if (count < kMost) continue;
         give_hits(part, kernels, clusters.data(), count);
         count = 0;
       }
@@ -95,15 +96,18 @@ class Direction {
   void give_hits(const PlacedPart& part, const Kernels& kernels, std::uint32_t* clusters,
                  std::size_t cluster_count) noexcept {
     static constexpr std::array<float, 9> kStraight = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    constexpr std::size_t kRoom = kLanes * kFieldBatch;
+    constexpr std::size_t kRoom = 4 * kFieldBatch;
     std::array<std::uint32_t, kRoom + kLanes> point;
     std::array<float, kRoom + kLanes> depth_m;
     std::array<float, kRoom + kLanes> x;
     std::array<float, kRoom + kLanes> y;
     std::array<float, kRoom + kLanes> z;
     const HitRuns out{point.data(), depth_m.data(), x.data(), y.data(), z.data(), kRoom};
-    const std::size_t count =
-        kernels.field_hits(part.field, part.X_BS, kStraight, runs_of(source_), clusters, cluster_count, out);
+    const PointRuns runs = runs_of(source_);
+    std::array<std::uint32_t, kFieldBatch + kLanes> quads;
+    const std::size_t quad_count =
+        kernels.field_sift(part.field, part.X_BS, runs.quads, runs.quad_stride, clusters, cluster_count, quads.data());
+    const std::size_t count = kernels.field_hits(part.field, part.X_BS, kStraight, runs, quads.data(), quad_count, out);
     const Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> R_QS(part.X_QS.R_BA.data());
     const Eigen::Map<const Vec3f> p_QS(part.X_QS.p_BA.data());
     for (std::size_t i = 0; i < count; ++i) {

@@ -27,7 +27,8 @@ struct KernelBody {
             &Field::field_inside,
             &Field::field_depth,
             &Field::field_sift,
-            &Field::field_hits};
+            &Field::field_hits,
+            &Field::have_stayed};
   }
 };
 

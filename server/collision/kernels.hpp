@@ -76,7 +76,7 @@ struct BrickView {
 inline constexpr int kFieldLevels = 4;               ///< how often a block of a DistanceField may be halved
 inline constexpr float kFieldValueStep = 1.0F / 64;  ///< of a bounding plane, in blocks
 inline constexpr float kFieldSlopeStep = 1.0F / 63;  ///< of its slopes
-inline constexpr std::size_t kFieldBatch = 64;       ///< clusters that field_hits takes at once
+inline constexpr std::size_t kFieldBatch = 256;      ///< quads that field_hits takes at once
 inline constexpr std::uint32_t kFieldLanes[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 /// What a kernel reads of a DistanceField.
@@ -88,11 +88,23 @@ struct FieldView {
   std::array<float, 3> origin;
   float inverse_block;
   float block_m;
-  float slack;  ///< see DistanceField; in blocks
+  float slack;   ///< see DistanceField; in blocks
+  float margin;  ///< spheres count as larger by so much; in blocks
 };
 
-/// Points in clusters of 16, those of a cluster side by side, and a sphere around each four of them. Strides are from cluster to cluster,
-/// in floats. Without spheres, `quads.x` is null.
+/// Where up to 16 rigid groups of points are: the middles of their spheres, and their rotations, row after row.
+struct alignas(64) GroupPlaces {
+  std::array<float, kLanes> x, y, z;
+  std::array<std::array<float, kLanes>, 9> R;
+};
+/// The same as views of the caller's arrays.
+struct GroupsView {
+  SpheresView spheres;
+  std::array<const float*, 9> R;
+};
+
+/// Points in clusters of 16, those of a cluster side by side: four quads, with a sphere around each. Strides are from cluster to
+/// cluster, in floats. Without spheres, `quads.x` is null.
 struct PointRuns {
   const float* x;
   const float* y;
@@ -154,11 +166,13 @@ struct Kernels {
   /// 4 i to 4 i + 3, and returns how many. Writes up to three more fours behind the last; `out` needs kLanes places more.
   std::size_t (*field_sift)(const FieldView& map, const BlockTransform& X_B, const SpheresView& spheres,
                             std::size_t stride, std::uint32_t* fours, std::size_t count, std::uint32_t* out) noexcept;
-  /// All points inside of at most kFieldBatch clusters, with three places behind them: depths, and normals turned by R_AQ.
+  /// All points inside of at most kFieldBatch quads, with three places behind them: depths, and normals turned by R_AQ.
   /// Returns how many were written.
   std::size_t (*field_hits)(const FieldView& map, const BlockTransform& X_B, const std::array<float, 9>& R_AQ,
-                            const PointRuns& points, std::uint32_t* clusters, std::size_t count,
+                            const PointRuns& points, std::uint32_t* quads, std::size_t count,
                             const HitRuns& out) noexcept;
+  /// Whether no point of the first `count` groups is farther than margin_m from where it was.
+  bool (*have_stayed)(const GroupsView& now, const GroupPlaces& then, std::size_t count, float margin_m) noexcept;
 };
 
 /// Whether this machine can run them.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/collision/kernels.hpp"
+#include "server/collision/near_list.hpp"
 #include "server/collision/object.hpp"
 #include "server/collision/placed_part.hpp"
 
@@ -23,6 +24,8 @@ struct PointSet {
   Vec3f center = Vec3f::Zero();        ///< of a sphere around everything
   float radius = 0;
   SpheresView quads{};  ///< around each four points, if the caller has them: a query of a DistanceField is quicker then
+  /// For a NearList: the rotation of each group, row after row, number i of group g at rotations[i][g]; the groups are rigid then.
+  std::array<const float*, 9> rotations{};
 };
 
 /// Which points lie inside, each once and in no order; structure of arrays. The storage is kept from one query to the next.
@@ -44,9 +47,21 @@ class PlacedObject {
 
   /// Adds the points that lie inside to `out`, while it has room. Allocates nothing. Any thread.
   void query(const PointSet& points, PointHits& out, const Kernels& kernels = best_kernels()) const noexcept;
+  /// The same, to the bit, and quicker where the object is one DistanceField and the set has quads and rotations: the fours of points that
+  /// are near are found anew only when something has moved by more than the list's margin.
+  void query(const PointSet& points, NearList& near, PointHits& out,
+             const Kernels& kernels = best_kernels()) const noexcept;
 
  private:
-  void query_field(const PointSet& points, PointHits& out, const Kernels& kernels) const noexcept;
+  [[nodiscard]] bool reaches(const PointSet& points) const noexcept;
+  [[nodiscard]] bool is_field() const noexcept;
+  [[nodiscard]] bool still_holds(const NearList& near, const PointSet& points, const Kernels& kernels) const noexcept;
+  void renew(NearList& near, const PointSet& points, const Kernels& kernels) const noexcept;
+  template <class Take>
+  void sift_field(const PointSet& points, const FieldView& field, const Kernels& kernels,
+                  const Take& take) const noexcept;
+  void add_hits(const PointSet& points, std::uint32_t* quads, std::size_t count, PointHits& out,
+                const Kernels& kernels) const noexcept;
 
   std::vector<PlacedPart> parts_;
   std::vector<Eigen::Matrix3f> R_SQ_;

@@ -12,6 +12,7 @@ using Plane = collision::DistanceField::Plane;
 constexpr double kHalfDiagonal = 0.8661;  // of a block, rounded up
 constexpr double kRounding = 1e-3;        // of a block: more than a kernel's float32 can be wrong by
 constexpr int kLooks = 3;                 // places of the block from which a triangle is looked at
+constexpr int kLeans = 4;                 // directions that are tried between the plane's own and another
 constexpr auto kValueStep = static_cast<double>(collision::kFieldValueStep);
 constexpr auto kSlopeStep = static_cast<double>(collision::kFieldSlopeStep);
 
@@ -53,7 +54,17 @@ double BoundingPlanes::least(const Facet& facet, const Vec3& middle, const Vec3&
     best = std::max(best, -0.5 * (u - g).cwiseAbs().sum() - farthest);
     return best >= enough;
   };
-  if (facet.n.squaredNorm() > 0 && (try_direction(facet.n) || try_direction(-facet.n))) return best;
+  const Vec3 own = g / std::max(1.0, g.norm());
+  // What the plane's own direction cannot prove, one that leans towards the triangle may.
+  const auto try_leaning = [&](const Vec3& towards) {
+    for (int step = kLeans; step > 0; --step) {
+      const Vec3 u = own + static_cast<double>(step) / kLeans * (towards - own);
+      if (try_direction(u / std::max(u.norm(), 1e-9))) return true;
+    }
+    return false;
+  };
+  if (try_direction(own)) return best;
+  if (facet.n.squaredNorm() > 0 && (try_leaning(facet.n) || try_leaning(-facet.n))) return best;
   Vec3 from = Vec3::Zero();
   for (int turn = 0; turn < kLooks; ++turn) {
     Vec3 nearest = Vec3::UnitZ();
@@ -65,7 +76,7 @@ double BoundingPlanes::least(const Facet& facet, const Vec3& middle, const Vec3&
       distance = length;
       nearest = away / length;
     }
-    if (try_direction(nearest)) return best;
+    if (try_leaning(nearest)) return best;
     // The corner of the block that binds for this direction.
     for (int axis = 0; axis < 3; ++axis)
       from[axis] = nearest[axis] > g[axis] ? -0.5 : 0.5;

@@ -12,11 +12,11 @@ namespace mechane::collision_build {
 
 /// Made once from a mesh, given in units of blocks. Any thread may ask.
 ///
-/// The proof. Let L(p) = v + g . (p - c) over the block around c. For a triangle T and any unit vector u, |p - s| >= u . (p - s) for all p
-/// of the block and s of T; so |p - s| - L(p) is at least the least value of (u - g) . (p - c) over the block's corners, less the largest
-/// of u . (s - c) over T's corners, less v. A v that makes this 0 or more for each T, with a u of its own, bounds the distance from below
-/// everywhere in the block. Where L > 0 there is then no surface; that is a convex region, so it lies in air as a whole if one point of it
-/// does, and what is left inside has L <= 0.
+/// The proof. Let L(p) = v + g . (p - c) over the block around c. For a triangle T and any vector u no longer than 1, |p - s| >= u . (p -
+/// s) for all p of the block and s of T; so |p - s| - L(p) is at least the least value of (u - g) . (p - c) over the block's corners, less
+/// the largest of u . (s - c) over T's corners, less v. A v that makes this 0 or more for each T, with a u of its own, bounds the distance
+/// from below everywhere in the block. Where L > 0 there is then no surface; that is a convex region, so it lies in air as a whole if one
+/// point of it does, and what is left inside has L <= 0.
 class BoundingPlanes {
  public:
   /// `mesh_B`: vertices in units of blocks, from the grid's lowest corner on.

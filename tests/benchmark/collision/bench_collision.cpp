@@ -31,10 +31,10 @@ struct Config {
   std::size_t checked = 200;
   double budget_pct = 0.3;
   TimingConfig timing;
-  std::vector<std::string> methods = {kOurs,         "sqmap_avx512", "sqmap_avx2",   "sqmap_portable", "sqmap_nobrick",
-                                      "sqmap_boxes", "field",        "field_avx2",   "field_portable", "paper",
-                                      "paper_along", "brick",        "brick_scalar", "openvdb",        "bt_sdf",
-                                      "embree",      "fcl_contacts", "fcl_yesno",    "fcl_gjk"};
+  std::vector<std::string> methods = {
+      kOurs,          "sqmap_avx512", "sqmap_avx2",     "sqmap_portable", "sqmap_nobrick", "sqmap_boxes", "field",
+      "field_lists",  "field_avx2",   "field_portable", "paper",          "paper_along",   "brick",       "brick_lists",
+      "brick_scalar", "openvdb",      "bt_sdf",         "embree",         "fcl_contacts",  "fcl_yesno",   "fcl_gjk"};
 };
 
 using Agreements = std::array<Agreement, kSceneObjects>;
@@ -49,6 +49,7 @@ class Workshop {
     if (is_ours(name)) return make_ours(name);
     if (name.starts_with("paper")) return make_paper(scene_, name, *objects_of(OurMaps::any));
     if (name == "brick") return make_brick(scene_, accuracy, Simd::best);
+    if (name == "brick_lists") return make_brick(scene_, accuracy, Simd::best, NearLists::used);
     if (name == "brick_scalar") return make_brick(scene_, accuracy, Simd::scalar);
     if (name == "openvdb") return make_openvdb(scene_, accuracy);
     if (name == "bt_sdf") return make_bt_sdf(scene_, accuracy);
@@ -67,18 +68,20 @@ class Workshop {
     if (name == "sqmap_avx2") return with(name, OurMaps::any, InstructionSet::avx2);
     if (name == "sqmap_portable") return with(name, OurMaps::any, InstructionSet::portable);
     if (name == "sqmap_nobrick") return with(name, OurMaps::radial_only, collision::best_set());
+    if (name == "field_lists") return with(name, OurMaps::fields, collision::best_set(), NearLists::used);
     if (name == "field") return with(name, OurMaps::fields, collision::best_set());
     if (name == "field_avx2") return with(name, OurMaps::fields, InstructionSet::avx2);
     if (name == "field_portable") return with(name, OurMaps::fields, InstructionSet::portable);
     if (name == "sqmap_boxes") return with(name, OurMaps::boxes, collision::best_set());
     return nullptr;
   }
-  MethodPtr with(const std::string& name, OurMaps maps, collision::InstructionSet set) {
+  MethodPtr with(const std::string& name, OurMaps maps, collision::InstructionSet set,
+                 NearLists lists = NearLists::none) {
     if (!collision::is_supported(set)) {
       report_.note(name + " was not run: this processor lacks its instructions");
       return nullptr;
     }
-    return make_sqmap(scene_, name, objects_of(maps), set);
+    return make_sqmap(scene_, name, objects_of(maps), set, lists);
   }
   const std::shared_ptr<const OurObjects>& objects_of(OurMaps maps) {
     std::shared_ptr<const OurObjects>& built = built_[maps];
@@ -201,14 +204,15 @@ void report_times(const Scene& scene, const std::string& method, const StepTimes
 }
 
 /// ratio.<peer> and, with a run of our AVX2 kernels, ratio_avx2.<peer>: how many times as long as ours the peer takes. With fields, also
-/// ratio_field.<peer>. ratio_p99 and the like are those of the 99th percentiles.
+/// ratio_field.<peer>, and ratio_field_lists.<peer> where what is near is remembered. Names that end in _p99: of the 99th percentiles.
 void report_ratios(const std::vector<MethodPtr>& methods, const std::vector<StepTimes>& times, Report& report) {
   for (const auto& [share, suffix] : {std::pair{0.5, ""}, std::pair{0.99, "_p99"}}) {
     std::map<std::string, double> us;
     for (std::size_t m = 0; m < methods.size(); ++m)
       us[methods[m]->name()] = Quantiles(times[m].all_passes_us()).quantile_us(share);
     for (const auto& [base, prefix] :
-         {std::pair{kOurs, "ratio"}, std::pair{"sqmap_avx2", "ratio_avx2"}, std::pair{kField, "ratio_field"}}) {
+         {std::pair{kOurs, "ratio"}, std::pair{"sqmap_avx2", "ratio_avx2"}, std::pair{kField, "ratio_field"},
+          std::pair{"field_lists", "ratio_field_lists"}}) {
       const auto ours = us.find(base);
       if (ours == us.end() || ours->second <= 0) continue;
       for (const auto& [name, time] : us)

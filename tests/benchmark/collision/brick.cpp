@@ -11,8 +11,10 @@ namespace {
 
 class Brick final : public Method {
  public:
-  Brick(const Scene& scene, const Accuracy& accuracy, Simd simd)
-      : simd_(simd), vector_(simd == Simd::best && brick_has_avx2()) {
+  Brick(const Scene& scene, const Accuracy& accuracy, Simd simd, NearLists lists)
+      : simd_(simd),
+        vector_(simd == Simd::best && brick_has_avx2()),
+        lists_(lists == NearLists::used ? scene.objects.size() : 0) {
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
       const SceneObject& object = scene.objects[k];
       const SolidQuery query(object);
@@ -29,7 +31,10 @@ class Brick final : public Method {
     build_s_ = watch.seconds();
   }
 
-  [[nodiscard]] std::string name() const override { return simd_ == Simd::best ? "brick" : "brick_scalar"; }
+  [[nodiscard]] std::string name() const override {
+    if (!lists_.empty()) return "brick_lists";
+    return simd_ == Simd::best ? "brick" : "brick_scalar";
+  }
   [[nodiscard]] std::vector<std::size_t> bytes_by_object() const override {
     std::vector<std::size_t> bytes;
     for (const BrickGrid& grid : grids_)
@@ -41,7 +46,9 @@ class Brick final : public Method {
 
   void step(const HandStep& hand, Hits& out) override {
     for (std::size_t k = 0; k < grids_.size(); ++k) {
-      if (vector_) {
+      if (vector_ && !lists_.empty()) {
+        query_brick_lists_avx2(grids_[k], k, hand, lists_[k], out);
+      } else if (vector_) {
         query_brick_avx2(grids_[k], k, hand, out);
       } else {
         query_brick_scalar(grids_[k], k, hand, out);
@@ -51,7 +58,8 @@ class Brick final : public Method {
 
  private:
   Simd simd_;
-  bool vector_;  // with AVX2
+  bool vector_;                   // with AVX2
+  std::vector<BrickList> lists_;  // of each object, where it remembers what is near
   double build_s_ = 0;
   std::vector<int> cells_;
   std::vector<BrickGrid> grids_;
@@ -155,8 +163,27 @@ void query_brick_scalar(const BrickGrid& grid, std::size_t object, const HandSte
   }
 }
 
-MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd) {
-  return std::make_unique<Brick>(scene, accuracy, simd);
+namespace {
+
+collision::GroupsView groups_view(const HandStep& hand) noexcept {
+  return {{hand.segment_x.data(), hand.segment_y.data(), hand.segment_z.data(), hand.segment_r.data()},
+          rotations_of(hand)};
+}
+
+}  // namespace
+
+bool BrickList::still_holds(const HandStep& hand) const noexcept {
+  return is_made_ &&
+         collision::best_kernels().have_stayed(groups_view(hand), places_, kSegments, collision::NearList::kMargin_m);
+}
+
+void BrickList::remember(const HandStep& hand) noexcept {
+  is_made_ = true;
+  places_ = {hand.segment_x, hand.segment_y, hand.segment_z, hand.segment_R};
+}
+
+MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd, NearLists lists) {
+  return std::make_unique<Brick>(scene, accuracy, simd, lists);
 }
 
 }  // namespace mechane::benchmark

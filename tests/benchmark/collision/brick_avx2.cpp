@@ -110,14 +110,14 @@ MECHANE_AVX2_INLINE Vec8 gradient(const Corners& k) {
 
 /// One bit for each sphere that may touch what is inside; brick_reaches, eight times. `units`: 16-bit units in cells.
 MECHANE_AVX2_INLINE unsigned reached(const Constants& c, __m256 per_cell, __m256 units, const float* x, const float* y,
-                                     const float* z, const float* r) {
+                                     const float* z, const float* r, float slack = kBrickSlack) {
   const Vec8 p = to_grid(c, _mm256_load_ps(x), _mm256_load_ps(y), _mm256_load_ps(z));
   const Vec8 q = clamp_to_box(c, p);
   const __m256 dx = _mm256_sub_ps(p.x, q.x);
   const __m256 dy = _mm256_sub_ps(p.y, q.y);
   const __m256 dz = _mm256_sub_ps(p.z, q.z);
   const __m256 aside = _mm256_fmadd_ps(dx, dx, _mm256_fmadd_ps(dy, dy, _mm256_mul_ps(dz, dz)));
-  const __m256 reach = _mm256_fmadd_ps(_mm256_load_ps(r), per_cell, _mm256_set1_ps(kBrickSlack));
+  const __m256 reach = _mm256_fmadd_ps(_mm256_load_ps(r), per_cell, _mm256_set1_ps(slack));
   const __m256 square = _mm256_mul_ps(reach, reach);
   const auto close = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(aside, square, _CMP_LE_OQ)));
   if (close == 0) return 0;
@@ -133,7 +133,10 @@ MECHANE_AVX2_INLINE __m256i front_lanes(unsigned mask) {
   return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(lanes)));
 }
 
-MECHANE_AVX2_INLINE void store(const BrickGrid& grid, const Corners& k, unsigned inside, std::size_t first, Hits& out) {
+/// number_of(lanes): the points' numbers.
+template <class Number>
+MECHANE_AVX2_INLINE void store(const BrickGrid& grid, const Corners& k, unsigned inside, const Number& number_of,
+                               Hits& out) {
   const Vec8 g = gradient(k);
   const __m256 length = _mm256_sqrt_ps(_mm256_fmadd_ps(g.x, g.x, _mm256_fmadd_ps(g.y, g.y, _mm256_mul_ps(g.z, g.z))));
   const __m256 scale = _mm256_div_ps(_mm256_set1_ps(1), _mm256_max_ps(length, _mm256_set1_ps(1e-30F)));
@@ -150,15 +153,13 @@ MECHANE_AVX2_INLINE void store(const BrickGrid& grid, const Corners& k, unsigned
   put(&out.n_x[at], row(0));
   put(&out.n_y[at], row(1));
   put(&out.n_z[at], row(2));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(&out.point[at]),
-                      _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(first))));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(&out.point[at]), number_of(lanes));
   out.count = at + static_cast<std::size_t>(__builtin_popcount(inside));
 }
 
-MECHANE_AVX2_INLINE void query_eight(const BrickGrid& grid, const Constants& c, const HandStep& hand, std::size_t first,
-                                     Hits& out) {
-  const Vec8 p =
-      to_grid(c, _mm256_load_ps(&hand.x[first]), _mm256_load_ps(&hand.y[first]), _mm256_load_ps(&hand.z[first]));
+template <class Number>
+MECHANE_AVX2_INLINE void query_points(const BrickGrid& grid, const Constants& c, const Vec8& p, const Number& number_of,
+                                      Hits& out) {
   const Vec8 q = clamp_to_box(c, p);
   const __m256 in_box =
       _mm256_and_ps(_mm256_and_ps(_mm256_cmp_ps(p.x, q.x, _CMP_EQ_OQ), _mm256_cmp_ps(p.y, q.y, _CMP_EQ_OQ)),
@@ -167,7 +168,60 @@ MECHANE_AVX2_INLINE void query_eight(const BrickGrid& grid, const Constants& c, 
   const Corners k = look_up(c, q);
   const auto inside = static_cast<unsigned>(
       _mm256_movemask_ps(_mm256_and_ps(in_box, _mm256_cmp_ps(k.value, _mm256_setzero_ps(), _CMP_LT_OQ))));
-  if (inside != 0 && out.count + 8 <= Hits::kRoom) store(grid, k, inside, first, out);
+  if (inside != 0 && out.count + 8 <= Hits::kRoom) store(grid, k, inside, number_of, out);
+}
+
+MECHANE_AVX2_INLINE void query_eight(const BrickGrid& grid, const Constants& c, const HandStep& hand, std::size_t first,
+                                     Hits& out) {
+  const Vec8 p =
+      to_grid(c, _mm256_load_ps(&hand.x[first]), _mm256_load_ps(&hand.y[first]), _mm256_load_ps(&hand.z[first]));
+  const auto number_of = [first](__m256i lanes) MECHANE_AVX2 {
+    return _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(first)));
+  };
+  query_points(grid, c, p, number_of, out);
+}
+
+/// Two quads.
+MECHANE_AVX2_INLINE void query_quads(const BrickGrid& grid, const Constants& c, const HandStep& hand, std::size_t a,
+                                     std::size_t b, Hits& out) {
+  const auto both = [&](const auto& of) MECHANE_AVX2 {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(&of[4 * a])), _mm_load_ps(&of[4 * b]), 1);
+  };
+  const auto first_a = static_cast<int>(4 * a);
+  const auto first_b = static_cast<int>(4 * b);
+  const __m256i numbers =
+      _mm256_setr_epi32(first_a, first_a + 1, first_a + 2, first_a + 3, first_b, first_b + 1, first_b + 2, first_b + 3);
+  query_points(
+      grid, c, to_grid(c, both(hand.x), both(hand.y), both(hand.z)),
+      [&](__m256i lanes) MECHANE_AVX2 { return _mm256_permutevar8x32_epi32(numbers, lanes); }, out);
+}
+
+/// The quads within reach and the margin, segment by segment and cluster by cluster.
+MECHANE_AVX2_INLINE void find_quads(const BrickGrid& grid, const Constants& c, const HandStep& hand, BrickList& list) {
+  const __m256 per_cell = _mm256_set1_ps(1 / grid.cell_m);
+  const __m256 units = _mm256_set1_ps(grid.step_m / grid.cell_m);
+  const float slack = kBrickSlack + collision::NearList::kMargin_m / grid.cell_m;
+  list.count = 0;
+  unsigned segments = 0;
+  for (std::size_t s = 0; s < kSegments; s += 8)
+    segments |= reached(c, per_cell, units, &hand.segment_x[s], &hand.segment_y[s], &hand.segment_z[s],
+                        &hand.segment_r[s], slack)
+                << s;
+  for (; segments != 0; segments &= segments - 1) {
+    const std::size_t first = kSegmentClusters * static_cast<std::size_t>(__builtin_ctz(segments));
+    const unsigned clusters = reached(c, per_cell, units, &hand.cluster_x[first], &hand.cluster_y[first],
+                                      &hand.cluster_z[first], &hand.cluster_r[first], slack);
+    for (std::size_t pair = 0; pair < kSegmentClusters; pair += 2) {
+      const unsigned two = clusters >> pair & 3U;
+      if (two == 0) continue;
+      const std::size_t quad = 4 * (first + pair);
+      const unsigned wanted = (two & 1U) * 0xfU | (two >> 1U) * 0xf0U;
+      unsigned quads = wanted & reached(c, per_cell, units, &hand.quad_x[quad], &hand.quad_y[quad], &hand.quad_z[quad],
+                                        &hand.quad_r[quad], slack);
+      for (; quads != 0; quads &= quads - 1)
+        list.quads[list.count++] = static_cast<std::uint32_t>(quad) + static_cast<unsigned>(__builtin_ctz(quads));
+    }
+  }
 }
 
 }  // namespace
@@ -202,7 +256,36 @@ MECHANE_AVX2 void query_brick_avx2(const BrickGrid& grid, std::size_t object, co
   std::memset(&out.object[before], static_cast<int>(object), out.count - before);
 }
 
+MECHANE_AVX2 void query_brick_lists_avx2(const BrickGrid& grid, std::size_t object, const HandStep& hand,
+                                         BrickList& list, Hits& out) noexcept {
+  if (!brick_reaches(grid, grid.A_GW * hand.center + grid.b_GW, hand.radius)) return;
+  const Constants c = constants_of(grid);
+  if (!list.still_holds(hand)) {
+    list.remember(hand);
+    find_quads(grid, c, hand, list);
+  }
+  const std::size_t before = out.count;
+  std::size_t i = 0;
+  for (; i + 1 < list.count; i += 2)
+    query_quads(grid, c, hand, list.quads[i], list.quads[i + 1], out);
+  if (i < list.count) {  // an odd one, with lanes that lie nowhere
+    const __m256 far = _mm256_set1_ps(1e9F);
+    const std::size_t first = 4 * std::size_t{list.quads[i]};
+    const auto one = [&](const auto& of) MECHANE_AVX2 { return _mm256_insertf128_ps(far, _mm_load_ps(&of[first]), 0); };
+    query_points(
+        grid, c, to_grid(c, one(hand.x), one(hand.y), one(hand.z)),
+        [&](__m256i lanes) MECHANE_AVX2 { return _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(first))); },
+        out);
+  }
+  std::memset(&out.object[before], static_cast<int>(object), out.count - before);
+}
+
 #else
+
+void query_brick_lists_avx2(const BrickGrid& grid, std::size_t object, const HandStep& hand, BrickList&,
+                            Hits& out) noexcept {
+  query_brick_scalar(grid, object, hand, out);
+}
 
 bool brick_has_avx2() noexcept {
   return false;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "server/collision/near_list.hpp"
 #include "tests/benchmark/collision/exact_grid.hpp"
 #include "tests/benchmark/collision/method.hpp"
 
@@ -41,10 +42,26 @@ struct BrickSample {
 /// A grid of distances is not an exact distance between its nodes: by so much, in cells, a cluster's sphere is taken to be larger.
 inline constexpr float kBrickSlack = 0.25F;
 
+/// What our query remembers (collision::NearList), for a grid: so that the two differ in their maps alone.
+class BrickList {
+ public:
+  [[nodiscard]] bool still_holds(const HandStep& hand) const noexcept;
+  void remember(const HandStep& hand) noexcept;
+
+  std::size_t count = 0;
+  std::array<std::uint32_t, kQuads> quads;
+
+ private:
+  bool is_made_ = false;
+  collision::GroupPlaces places_{};
+};
+
 /// The whole hand against one object.
 void query_brick_scalar(const BrickGrid& grid, std::size_t object, const HandStep& hand, Hits& out) noexcept;
 /// Only where brick_has_avx2().
 void query_brick_avx2(const BrickGrid& grid, std::size_t object, const HandStep& hand, Hits& out) noexcept;
+void query_brick_lists_avx2(const BrickGrid& grid, std::size_t object, const HandStep& hand, BrickList& list,
+                            Hits& out) noexcept;
 [[nodiscard]] bool brick_has_avx2() noexcept;
 
 }  // namespace mechane::benchmark

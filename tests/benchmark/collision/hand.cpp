@@ -146,6 +146,8 @@ void Scene::fill(std::size_t step, HandStep& out) const {
              out.cluster_r);
     for (std::size_t q = 0; q < kSegmentPoints / 4; ++q)
       sphere(hand[s].quads_S[q], s * kSegmentPoints / 4 + q, out.quad_x, out.quad_y, out.quad_z, out.quad_r);
+    for (std::size_t i = 0; i < out.segment_R.size(); ++i)
+      out.segment_R[i][s] = R(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
     sphere(hand[s].bound_S, s, out.segment_x, out.segment_y, out.segment_z, out.segment_r);
     out.center += p / kSegments;
   }
@@ -154,6 +156,13 @@ void Scene::fill(std::size_t step, HandStep& out) const {
     const Vec3f q(out.segment_x[s], out.segment_y[s], out.segment_z[s]);
     out.radius = std::max(out.radius, (q - out.center).norm() + out.segment_r[s]);
   }
+}
+
+std::array<const float*, 9> rotations_of(const HandStep& hand) {
+  std::array<const float*, 9> rotations{};
+  for (std::size_t i = 0; i < rotations.size(); ++i)
+    rotations[i] = hand.segment_R[i].data();
+  return rotations;
 }
 
 }  // namespace mechane::benchmark

@@ -106,11 +106,14 @@ struct OurObjects {
 
 [[nodiscard]] std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps);
 
+/// Whether our query remembers what is near (collision::NearList).
+enum class NearLists { none, used };
+
 MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
-                     collision::InstructionSet set);
+                     collision::InstructionSet set, NearLists lists = NearLists::none);
 /// 'paper': the depth as published; 'paper_along': along the normal (see collision::PaperDepth).
 MethodPtr make_paper(const Scene& scene, const std::string& name, const OurObjects& built);
-MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd);
+MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd, NearLists lists = NearLists::none);
 MethodPtr make_openvdb(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_bt_sdf(const Scene& scene, const Accuracy& accuracy);
 MethodPtr make_embree(const Scene& scene);

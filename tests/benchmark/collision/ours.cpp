@@ -32,10 +32,17 @@ std::size_t bytes_of(const collision::Object& object) {
 
 class Ours final : public Method {
  public:
-  Ours(const Scene& scene, std::string name, std::shared_ptr<const OurObjects> built, collision::InstructionSet set)
-      : name_(std::move(name)), kernels_(collision::kernels_of(set)), found_(kHandPoints), built_(std::move(built)) {
-    for (std::size_t k = 0; k < built_->objects.size(); ++k)
+  Ours(const Scene& scene, std::string name, std::shared_ptr<const OurObjects> built, collision::InstructionSet set,
+       NearLists lists)
+      : name_(std::move(name)),
+        kernels_(collision::kernels_of(set)),
+        lists_(lists),
+        found_(kHandPoints),
+        built_(std::move(built)) {
+    for (std::size_t k = 0; k < built_->objects.size(); ++k) {
       placed_.emplace_back(built_->objects[k], scene.objects[k].X_WO);
+      near_.emplace_back(kHandPoints, kSegments);
+    }
   }
 
   [[nodiscard]] std::string name() const override { return name_; }
@@ -64,10 +71,15 @@ class Ours final : public Method {
         kSegmentClusters,
         hand.center,
         hand.radius,
-        {hand.quad_x.data(), hand.quad_y.data(), hand.quad_z.data(), hand.quad_r.data()}};
+        {hand.quad_x.data(), hand.quad_y.data(), hand.quad_z.data(), hand.quad_r.data()},
+        rotations_of(hand)};
     for (std::size_t k = 0; k < placed_.size(); ++k) {
       found_.count = 0;
-      placed_[k].query(points, found_, kernels_);
+      if (lists_ == NearLists::used) {
+        placed_[k].query(points, near_[k], found_, kernels_);
+      } else {
+        placed_[k].query(points, found_, kernels_);
+      }
       const std::size_t count = std::min(found_.count, kHandPoints - out.count);
       const auto copy = [&](const auto& from, auto& to) { std::copy_n(from.begin(), count, &to[out.count]); };
       copy(found_.point, out.point);
@@ -83,9 +95,11 @@ class Ours final : public Method {
  private:
   std::string name_;
   const collision::Kernels& kernels_;
+  NearLists lists_;
   collision::PointHits found_;
   std::shared_ptr<const OurObjects> built_;
   std::vector<collision::PlacedObject> placed_;
+  std::vector<collision::NearList> near_;
 };
 
 }  // namespace
@@ -106,8 +120,8 @@ std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps) {
 }
 
 MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
-                     collision::InstructionSet set) {
-  return std::make_unique<Ours>(scene, name, std::move(built), set);
+                     collision::InstructionSet set, NearLists lists) {
+  return std::make_unique<Ours>(scene, name, std::move(built), set, lists);
 }
 
 }  // namespace mechane::benchmark

@@ -65,10 +65,14 @@ struct alignas(64) HandStep {
   std::array<float, kClusters + 16> cluster_x, cluster_y, cluster_z, cluster_r;
   std::array<float, kQuads> quad_x, quad_y, quad_z, quad_r;
   std::array<float, kSegments> segment_x, segment_y, segment_z, segment_r;
-  Vec3f center = Vec3f::Zero();  ///< of a sphere around all
+  std::array<std::array<float, kSegments>, 9> segment_R;  ///< of their rotations, row after row
+  Vec3f center = Vec3f::Zero();                           ///< of a sphere around all
   float radius = 0;
   HandPose X_WS;
 };
+
+/// As our query wants them.
+[[nodiscard]] std::array<const float*, 9> rotations_of(const HandStep& hand);
 
 struct Scene {
   std::uint64_t seed = kDefaultSeed;

@@ -229,6 +229,107 @@ TEST(FieldQuery, WritesNoMoreThanThereIsRoomFor) {
   EXPECT_EQ(out.room(), 0U);
 }
 
+/// Pieces that move by themselves, and a set of all their points.
+class RigidGroups {
+ public:
+  static constexpr std::size_t kCount = 18;  // more than fit into a vector
+  static constexpr std::size_t kEach = 4;    // clusters
+  static constexpr std::size_t kPoints = kCount * kEach * kLanes;
+
+  explicit RigidGroups(Random& random) {
+    for (auto& group : points_G_)
+      for (Vec3& p : group)
+        p = 0.02 * test::any_vector(random);
+    for (Pose& X : X_WG)
+      X = {0.1 * test::any_vector(random), turned(3, random)};
+  }
+
+  static Quat turned(double most_rad, Random& random) {
+    return Quat(Eigen::AngleAxisd(most_rad * random.unit(), test::any_vector(random).normalized()));
+  }
+
+  /// Valid until the next call.
+  PointSet set() {
+    all_ = clusters_ = groups_ = quads_ = {};
+    for (std::size_t g = 0; g < kCount; ++g) {
+      for (const Vec3& p_G : points_G_[g])
+        all_.add({X_WG[g] * p_G, 0});
+      add_spheres(g, kEach * kLanes, groups_);
+      add_spheres(g, kLanes, clusters_);
+      add_spheres(g, 4, quads_);
+      const Eigen::Matrix3f R = X_WG[g].R.toRotationMatrix().cast<float>();
+      for (std::size_t i = 0; i < R_.size(); ++i)
+        R_[i][g] = R(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
+    }
+    PointSet set{{all_.x.data(), all_.y.data(), all_.z.data()},
+                 clusters_.view(),
+                 groups_.view(),
+                 kCount,
+                 kEach,
+                 Vec3f::Zero(),
+                 1,
+                 quads_.view()};
+    for (std::size_t i = 0; i < R_.size(); ++i)
+      set.rotations[i] = R_[i].data();
+    return set;
+  }
+
+  std::array<Pose, kCount> X_WG;
+
+ private:
+  /// Around each `count` points, as they lie in the group.
+  void add_spheres(std::size_t g, std::size_t count, Spheres& to) const {
+    for (std::size_t first = 0; first < points_G_[g].size(); first += count) {
+      const geometry::Sphere sphere = bounding_sphere(std::span(points_G_[g]).subspan(first, count));
+      to.add({X_WG[g] * sphere.center, sphere.radius});
+    }
+  }
+
+  std::array<std::array<Vec3, kEach * kLanes>, kCount> points_G_;
+  Spheres all_, clusters_, groups_, quads_;
+  std::array<std::array<float, kCount + kLanes>, 9> R_{};
+};
+
+void expect_same_bits(const PointHits& l, const PointHits& r) {
+  ASSERT_EQ(l.count, r.count);
+  const auto same = [&](const auto& a, const auto& b) { return std::equal(a.begin(), a.begin() + l.count, b.begin()); };
+  EXPECT_TRUE(same(l.point, r.point) && same(l.depth_m, r.depth_m));
+  EXPECT_TRUE(same(l.n_x, r.n_x) && same(l.n_y, r.n_y) && same(l.n_z, r.n_z));
+}
+
+/// Slow ticks and fast ones, some groups at rest and some that turn alone, and an object that moves now and then.
+TEST(FieldQuery, NearListsChangeNoBit) {
+  const Object object = test::object_of(test::ball_field());
+  Random random(6);
+  for (const InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (!is_supported(set)) continue;
+    RigidGroups groups(random);
+    NearList near(RigidGroups::kPoints, RigidGroups::kCount);
+    Pose X_WO;
+    std::size_t hits = 0;
+    constexpr std::size_t kTicks = 300;
+    for (std::size_t tick = 0; tick < kTicks; ++tick) {
+      const double way_m = tick % 50 == 0 ? 0.01 : 0.0001;
+      for (Pose& X_WG : groups.X_WG) {
+        if (random.below(3) == 0) X_WG.p += way_m * test::any_vector(random);
+        if (random.below(3) == 0) X_WG.R = RigidGroups::turned(way_m / 0.02, random) * X_WG.R;
+      }
+      if (tick % 70 == 69) X_WO = Pose{0.003 * test::any_vector(random), RigidGroups::turned(0.1, random)};
+      const PlacedObject placed(object, X_WO);
+      const PointSet points = groups.set();
+      PointHits with(RigidGroups::kPoints);
+      PointHits without(RigidGroups::kPoints);
+      placed.query(points, near, with, kernels_of(set));
+      placed.query(points, without, kernels_of(set));
+      expect_same_bits(with, without);
+      hits += with.count;
+    }
+    EXPECT_GT(hits, 10 * kTicks);
+    EXPECT_GT(near.times_made(), 9U);  // after each fast tick, and each move of the object
+    EXPECT_LT(near.times_made(), kTicks / 2);
+  }
+}
+
 /// As samples against a field, and a field's samples against another object.
 TEST(FieldQuery, FindContactsGivesTheSamplesThatAreInside) {
   const Object ball = test::object_of(test::ball_field());
