@@ -1,0 +1,124 @@
+// The rows of all joints, couplings and grips of one step, solved together.
+//
+// Equalities are solved directly: their matrix J M^-1 J^T is factored within its profile, which is narrow, because joints of a machine
+// form trees with short loops. What has limits (friction, stops, ropes, grips) is left as a small dense system with the equalities
+// already eliminated. Contacts between bodies are Bullet's; where they act on these bodies, both are solved in turn.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "server/dynamics/rows.hpp"
+
+namespace mechane::dynamics {
+
+inline constexpr std::size_t kGround = std::numeric_limits<std::size_t>::max();  ///< instead of a body: the world
+
+/// How far a row's impulse may go.
+enum class RowLimit {
+  none,      ///< an equality
+  range,     ///< from low to high
+  friction,  ///< up to `high` times the size of the leader's impulse, either way; the leader is no equality
+  sheave,    ///< low to high times the tension before the sheave: the leader's (negative) impulse and those since
+};
+
+/// A row of a step.
+struct MechanismRow {
+  double target = 0;
+  RowLimit limit = RowLimit::none;
+  std::size_t leader = 0;
+  double low = 0;
+  double high = 0;
+  double softness = 0;
+};
+
+/// Rows of one step. One thread; only reserve() allocates.
+class Mechanism {
+ public:
+  /// Room for so many rows with so many terms in all; more are a bug.
+  void reserve(std::size_t rows, std::size_t terms, std::size_t bodies);
+  void clear() noexcept;
+  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
+
+  /// A new row without terms, and its index.
+  std::size_t add(const MechanismRow& row) noexcept;
+  /// Adds to the last row's value n.v + a.w of a body. Does nothing for the ground and for bodies that do not move.
+  void add_term(std::size_t body, const Vec3& n_W, const Vec3& a_W, std::span<const Frame> frames) noexcept;
+  /// Adds `factor` times another row, of body1 and body2, without its target.
+  void add_terms(const Row& row, std::size_t body1, std::size_t body2, double factor,
+                 std::span<const Frame> frames) noexcept;
+  /// A new row of body1 and body2, with its target and its limits, and its index.
+  std::size_t add_row(const Row& row, std::size_t body1, std::size_t body2, std::span<const Frame> frames) noexcept;
+
+  /// The bodies that the rows move, after factor().
+  [[nodiscard]] std::span<const std::size_t> bodies() const noexcept { return bodies_; }
+
+  /// Prepares the rows for solve(). Those that repeat others, to a billionth of their response, are left out and get no impulse.
+  void factor() noexcept;
+  /// Finds the impulses. `V`: by body, its velocity without them. May be called again for other velocities; it then begins with the
+  /// impulses found.
+  void solve(std::span<const Twist> V) noexcept;
+  /// What the impulses do to a body's velocity; for those in bodies().
+  [[nodiscard]] const Twist& change(std::size_t body) const noexcept { return change_[body]; }
+  [[nodiscard]] double impulse_of(std::size_t row) const noexcept { return solved_[row].impulse; }
+
+  /// How many rows have limits, and how often they were swept in the last solve().
+  [[nodiscard]] std::size_t limited() const noexcept { return limited_.size(); }
+  [[nodiscard]] int sweeps() const noexcept { return sweeps_; }
+
+ private:
+  struct Term {
+    std::size_t body = 0;
+    Vec3 n_W = Vec3::Zero();
+    Vec3 a_W = Vec3::Zero();
+    Vec3 v_per_impulse = Vec3::Zero();
+    Vec3 w_per_impulse = Vec3::Zero();
+  };
+  /// What factor() and solve() find for a row.
+  struct Solved {
+    std::size_t first_term = 0;
+    std::size_t first = 0;  // equality in whose column its row of the factor begins
+    std::size_t place = 0;  // among the limited
+    double response = 0;    // of the row's value to an impulse of 1
+    double inverse = 0;     // of the factor's diagonal; 0: left out
+    double wanted = 0;      // the part of the target that the velocities do not meet
+    double impulse = 0;
+  };
+
+  [[nodiscard]] std::span<const Term> terms_of(std::size_t row) const noexcept;
+  [[nodiscard]] double* factor_of(std::size_t row) noexcept { return &factor_[row * rows_.capacity()]; }
+  [[nodiscard]] double* matrix_of(std::size_t place) noexcept { return &matrix_[place * rows_.capacity()]; }
+  [[nodiscard]] double shared(std::size_t a, std::size_t b) const noexcept;
+  void collect() noexcept;
+  double eliminate(std::size_t row, std::size_t before) noexcept;
+  void fill_matrix(std::size_t place) noexcept;
+  void solve_limited() noexcept;
+  double sweep() noexcept;
+  void leap() noexcept;
+  void spread() noexcept;
+  [[nodiscard]] std::pair<double, double> limits_of(std::size_t row) const noexcept;
+
+  std::vector<MechanismRow> rows_;
+  std::vector<Term> terms_;  // row by row
+  std::vector<Solved> solved_;
+  std::vector<std::size_t> equal_;    // the equalities
+  std::vector<std::size_t> limited_;  // the others
+  std::vector<std::size_t> bodies_;
+  std::vector<std::size_t> first_of_;  // by body: the first equality that moves it
+  std::vector<char> seen_;             // by body: it is in bodies_
+  std::vector<Twist> change_;          // by body
+  std::vector<double> factor_;         // a row's coefficients over equal_
+  std::vector<double> matrix_;         // over limited_, with the equalities eliminated
+  std::vector<double> left_;           // by equality, in a solve
+  std::vector<double> wanted_;         // by limited row, with the equalities eliminated
+  std::vector<double> impulses_;       // likewise
+  std::vector<std::size_t> free_;      // places of those that are within their limits
+  std::vector<double> free_factor_;
+  std::vector<double> step_;
+  int sweeps_ = 0;
+};
+
+}  // namespace mechane::dynamics
