@@ -37,13 +37,24 @@ Vec3 from_bt(const btVector3& v) {
 /// Bullet's solver of contacts. Where they act on bodies of the mechanism, its rows are solved again after each of Bullet's sweeps.
 class ContactSolver final : public btSequentialImpulseConstraintSolver {
  public:
-  ContactSolver(Mechanism& mechanism, const std::vector<Twist>& free) : mechanism_(mechanism), free_(free) {}
+  ContactSolver(Mechanism& mechanism, const std::vector<Frame>& frames, const std::vector<Twist>& free)
+      : mechanism_(mechanism), frames_(frames), free_(free) {}
 
   /// Those of the mechanism's bodies that have contacts in this step; Bullet's and ours.
-  void clear_shared() { shared_.clear(); }
-  void add_shared(const btCollisionObject& bullet, std::size_t body) { shared_.push_back({&bullet, body}); }
+  void clear_shared() {
+    shared_.clear();
+    bullets_.clear();
+    pushes_.clear();
+  }
+  void add_shared(const btCollisionObject& bullet, std::size_t body) {
+    shared_.push_back(body);
+    bullets_.push_back(&bullet);
+    pushes_.emplace_back();
+  }
   void reserve(std::size_t bodies) {
     shared_.reserve(bodies);
+    bullets_.reserve(bodies);
+    pushes_.reserve(bodies);
     V_.resize(bodies);
   }
 
@@ -51,51 +62,62 @@ class ContactSolver final : public btSequentialImpulseConstraintSolver {
   btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
                                 btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** constraints,
                                 int constraint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override {
-    if (iteration == 0 && !shared_.empty()) give_changes();
+    if (iteration == 0 && !shared_.empty()) {
+      mechanism_.condense(shared_, frames_);
+      give_changes();
+    }
     const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
         iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, draw);
     if (shared_.empty()) return residual;
-    for (const std::size_t body : mechanism_.bodies())
-      V_[body] = free_[body];
-    for (const Shared& at : shared_) {
-      const btSolverBody& body = solver_body(at);
-      V_[at.body].v += from_bt(body.m_deltaLinearVelocity) - mechanism_.change(at.body).v;
-      V_[at.body].w += from_bt(body.m_deltaAngularVelocity) - mechanism_.change(at.body).w;
+    for (std::size_t i = 0; i < shared_.size(); ++i) {
+      const btSolverBody& body = solver_body(i);
+      pushes_[i].v = from_bt(body.m_deltaLinearVelocity) - mechanism_.change(shared_[i]).v;
+      pushes_[i].w = from_bt(body.m_deltaAngularVelocity) - mechanism_.change(shared_[i]).w;
     }
-    mechanism_.solve(V_);
-    return std::max(residual, give_changes(&V_));
+    mechanism_.respond(pushes_);
+    return std::max(residual, give_changes());
+  }
+
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
+                                         const btContactSolverInfo& info) override {
+    if (!shared_.empty()) {
+      for (const std::size_t body : mechanism_.bodies())
+        V_[body] = free_[body];
+      for (std::size_t i = 0; i < shared_.size(); ++i) {
+        V_[shared_[i]].v += pushes_[i].v;
+        V_[shared_[i]].w += pushes_[i].w;
+      }
+      mechanism_.solve(V_);
+      give_changes();
+    }
+    return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
 
  private:
-  struct Shared {
-    const btCollisionObject* bullet;
-    std::size_t body;
-  };
+  btSolverBody& solver_body(std::size_t i) { return m_tmpSolverBodyPool[bullets_[i]->getCompanionId()]; }
 
-  btSolverBody& solver_body(const Shared& at) { return m_tmpSolverBodyPool[at.bullet->getCompanionId()]; }
-
-  /// Writes what the mechanism does to the shared bodies, and what contacts do, to Bullet's. Returns the square of the greatest change.
-  double give_changes(const std::vector<Twist>* V = nullptr) {
+  /// Writes what contacts and the mechanism do to the shared bodies to Bullet's. Returns the square of the greatest change.
+  double give_changes() {
     double most = 0;
-    for (const Shared& at : shared_) {
-      btSolverBody& body = solver_body(at);
-      Twist delta = mechanism_.change(at.body);
-      if (V != nullptr) {
-        delta.v += (*V)[at.body].v - free_[at.body].v;
-        delta.w += (*V)[at.body].w - free_[at.body].w;
-      }
-      most = std::max({most, (delta.v - from_bt(body.m_deltaLinearVelocity)).squaredNorm(),
-                       (delta.w - from_bt(body.m_deltaAngularVelocity)).squaredNorm()});
-      body.m_deltaLinearVelocity = to_bt(delta.v);
-      body.m_deltaAngularVelocity = to_bt(delta.w);
+    for (std::size_t i = 0; i < shared_.size(); ++i) {
+      btSolverBody& body = solver_body(i);
+      const Twist& change = mechanism_.change(shared_[i]);
+      const Vec3 v = change.v + pushes_[i].v, w = change.w + pushes_[i].w;
+      most = std::max({most, (v - from_bt(body.m_deltaLinearVelocity)).squaredNorm(),
+                       (w - from_bt(body.m_deltaAngularVelocity)).squaredNorm()});
+      body.m_deltaLinearVelocity = to_bt(v);
+      body.m_deltaAngularVelocity = to_bt(w);
     }
     return most;
   }
 
   Mechanism& mechanism_;
+  const std::vector<Frame>& frames_;
   const std::vector<Twist>& free_;
-  std::vector<Shared> shared_;
-  std::vector<Twist> V_;  // by body, without the mechanism's impulses
+  std::vector<std::size_t> shared_;
+  std::vector<const btCollisionObject*> bullets_;  // of the shared
+  std::vector<Twist> pushes_;                      // what contacts do to them
+  std::vector<Twist> V_;                           // by body, without the mechanism's impulses
 };
 
 /// A body of ours and the same body in Bullet, which uses another frame. C is the centre of mass with the principal axes.
@@ -196,7 +218,7 @@ struct DynamicsWorld::Impl {
   std::vector<Frame> frames;                // by body, at the start of this step
   std::vector<Twist> free;                  // by body, its velocity after the step but for all rows and contacts
   Mechanism mechanism;
-  ContactSolver contact_solver{mechanism, free};
+  ContactSolver contact_solver{mechanism, frames, free};
   btContactSolverInfo solver_info;
   std::vector<btCollisionObject*> touching;  // those that have contacts in this step and can move; capacity for all
   std::vector<char> touches;                 // by body: it is in touching

@@ -1,6 +1,7 @@
 #include "server/dynamics/mechanism.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "server/base/assert.hpp"
@@ -10,6 +11,8 @@ namespace {
 
 // Of a row's response: a row with less left, once the others are taken off, repeats them; the rest is rounding.
 constexpr double kRepeated = 1e-9;
+constexpr double kSoftened = 1e-9;  // of a row's response, where rows with limits may repeat each other
+constexpr std::size_t kAxes = 6;    // in which a body moves
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr int kMostSweeps = 60;
 constexpr double kResidual = 1e-20;  // (m/s)^2: the sweeps end when no row changes by more than 1e-10 m/s
@@ -38,6 +41,10 @@ void Mechanism::reserve(std::size_t rows, std::size_t terms, std::size_t bodies)
     matrix->resize(rows_.capacity() * rows_.capacity());
   for (std::vector<double>* values : {&left_, &wanted_, &impulses_, &step_})
     values->resize(rows);
+  const std::size_t columns = 1 + kAxes * bodies;
+  columns_.resize(columns * rows_.capacity());
+  products_.resize(columns * columns);
+  pushes_.resize(columns);
 }
 
 void Mechanism::clear() noexcept {
@@ -174,6 +181,13 @@ void Mechanism::solve(std::span<const Twist> V) noexcept {
     for (const Term& term : terms_of(i))
       wanted -= term.n_W.dot(V[term.body].v) + term.a_W.dot(V[term.body].w);
   }
+  meet_equalities();
+  solve_limited();
+  spread();
+}
+
+/// From what all rows want to what is left for the limited ones once the equalities have it.
+void Mechanism::meet_equalities() noexcept {
   for (std::size_t k = 0; k < equal_.size(); ++k) {
     const Solved& row = solved_[equal_[k]];
     left_[k] = (row.wanted - product(factor_of(equal_[k]), left_.data(), row.first, k)) * row.inverse;
@@ -182,8 +196,61 @@ void Mechanism::solve(std::span<const Twist> V) noexcept {
     const Solved& row = solved_[limited_[place]];
     wanted_[place] = row.wanted - product(factor_of(limited_[place]), left_.data(), row.first, equal_.size());
   }
+}
+
+void Mechanism::make_column(std::size_t column) noexcept {
+  meet_equalities();
+  std::copy_n(left_.begin(), equal_.size(), column_of(column));
+  std::copy_n(wanted_.begin(), limited_.size(), column_of(column) + equal_.size());
+}
+
+void Mechanism::condense(std::span<const std::size_t> bodies, std::span<const Frame> frames) noexcept {
+  condensed_ = bodies;
+  frames_ = frames;
+  make_column(0);
+  const std::size_t columns = 1 + kAxes * bodies.size();
+  for (std::size_t column = 1; column < columns; ++column) {
+    const std::size_t body = bodies[(column - 1) / kAxes];
+    const auto axis = static_cast<Eigen::Index>((column - 1) % kAxes);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      solved_[i].wanted = 0;
+      for (const Term& term : terms_of(i)) {
+        if (term.body == body) solved_[i].wanted = axis < 3 ? term.n_W[axis] : term.a_W[axis - 3];
+      }
+    }
+    make_column(column);
+    for (std::size_t other = 0; other <= column; ++other) {
+      const double both = product(column_of(column), column_of(other), 0, equal_.size());
+      products_[column * columns + other] = products_[other * columns + column] = both;
+    }
+  }
+}
+
+void Mechanism::respond(std::span<const Twist> pushes) noexcept {
+  const std::size_t columns = 1 + kAxes * condensed_.size();
+  pushes_[0] = -1;  // of column 0 there is no push: it is the rest
+  for (std::size_t column = 1; column < columns; ++column) {
+    const Twist& push = pushes[(column - 1) / kAxes];
+    const auto axis = static_cast<Eigen::Index>((column - 1) % kAxes);
+    pushes_[column] = axis < 3 ? push.v[axis] : push.w[axis - 3];
+  }
+  for (std::size_t place = 0; place < limited_.size(); ++place) {
+    wanted_[place] = 0;
+    for (std::size_t column = 0; column < columns; ++column)
+      wanted_[place] -= pushes_[column] * column_of(column)[equal_.size() + place];
+  }
   solve_limited();
-  spread();
+  for (std::size_t i = 0; i < condensed_.size(); ++i) {
+    std::array<double, kAxes> impulse{};
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      const std::size_t column = 1 + kAxes * i + axis;
+      impulse[axis] = product(column_of(column) + equal_.size(), impulses_.data(), 0, limited_.size()) -
+                      product(&products_[column * columns], pushes_.data(), 0, columns);
+    }
+    const Frame& frame = frames_[condensed_[i]];
+    change_[condensed_[i]] = {frame.inverse_mass * Vec3(impulse[0], impulse[1], impulse[2]),
+                              frame.inverse_inertia_W * Vec3(impulse[3], impulse[4], impulse[5])};
+  }
 }
 
 /// Gauss-Seidel, with a direct solution of what is within its limits in between.
@@ -234,40 +301,65 @@ double Mechanism::sweep() noexcept {
   return residual;
 }
 
-/// Goes from the impulses towards those that meet all rows which are within their limits, as far as none passes its limit.
+/// Goes from the impulses to those that meet all rows which are within their limits. A row that comes to its limit on the way stays
+/// there, and the way goes on without it.
 void Mechanism::leap() noexcept {
   free_.clear();
   for (std::size_t place = 0; place < limited_.size(); ++place) {
     const auto [low, high] = limits_of(limited_[place]);
     if (matrix_of(place)[place] > 0 && impulses_[place] > low && impulses_[place] < high) free_.push_back(place);
   }
+  for (bool whole = false; !whole && !free_.empty();) {
+    solve_free();
+    whole = go_as_far_as_limits();
+  }
+}
+
+/// The step to the impulses that meet the free rows. Rows that repeat others are made a little softer, so that the matrix has an
+/// inverse: where they agree, each bears a share; where they do not, the step is so long that one of them comes to its limit.
+void Mechanism::solve_free() noexcept {
   const std::size_t stride = rows_.capacity();
   for (std::size_t i = 0; i < free_.size(); ++i) {
     double* of_row = &free_factor_[i * stride];
     const double* matrix = matrix_of(free_[i]);
-    double left = matrix[free_[i]];
+    double left = (1 + kSoftened) * matrix[free_[i]];
     for (std::size_t j = 0; j < i; ++j) {
       const double* of_other = &free_factor_[j * stride];
       of_row[j] = (matrix[free_[j]] - product(of_row, of_other, 0, j)) * of_other[j];
       left -= of_row[j] * of_row[j];
     }
-    // The diagonal holds its inverse; of a row that repeats others it is 0, and the row stays as it is.
-    of_row[i] = left > kRepeated * matrix[free_[i]] ? 1 / std::sqrt(left) : 0;
+    of_row[i] = 1 / std::sqrt(std::max(left, kSoftened * matrix[free_[i]]));  // the diagonal holds its inverse
     const double missing = wanted_[free_[i]] - product(matrix, impulses_.data(), 0, limited_.size());
     step_[i] = (missing - product(of_row, step_.data(), 0, i)) * of_row[i];
   }
-  double share = 1;
   for (std::size_t i = free_.size(); i-- > 0;) {
     const double* of_row = &free_factor_[i * stride];
     step_[i] *= of_row[i];
     for (std::size_t j = 0; j < i; ++j)
       step_[j] -= of_row[j] * step_[i];
+  }
+}
+
+/// Takes the step, or as much of it as the limits allow; then the row that came to its limit is free no more. True: all of it.
+bool Mechanism::go_as_far_as_limits() noexcept {
+  double share = 1;
+  std::size_t first = free_.size();
+  double at = 0;
+  for (std::size_t i = 0; i < free_.size(); ++i) {
     const auto [low, high] = limits_of(limited_[free_[i]]);
-    const double most = (step_[i] > 0 ? high : low) - impulses_[free_[i]];
-    if (std::abs(step_[i]) > std::abs(most)) share = std::min(share, most / step_[i]);
+    const double limit = step_[i] > 0 ? high : low;
+    const double most = limit - impulses_[free_[i]];
+    if (std::abs(step_[i]) * share <= std::abs(most)) continue;
+    share = most / step_[i];
+    first = i;
+    at = limit;
   }
   for (std::size_t i = 0; i < free_.size(); ++i)
     impulses_[free_[i]] += share * step_[i];
+  if (first == free_.size()) return true;
+  impulses_[free_[first]] = at;
+  free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(first));
+  return false;
 }
 
 /// From the impulses of the limited rows to those of the equalities, and what all do to the bodies.

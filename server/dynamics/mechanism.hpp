@@ -61,6 +61,11 @@ class Mechanism {
   /// Finds the impulses. `V`: by body, its velocity without them. May be called again for other velocities; it then begins with the
   /// impulses found.
   void solve(std::span<const Twist> V) noexcept;
+  /// After solve(): makes respond() ready for these bodies (some of bodies()).
+  void condense(std::span<const std::size_t> bodies, std::span<const Frame> frames) noexcept;
+  /// Solves again, for velocities that differ from those of solve() by `pushes`, of the condensed bodies in order. Much cheaper than
+  /// solve(), but finds only change() of these bodies.
+  void respond(std::span<const Twist> pushes) noexcept;
   /// What the impulses do to a body's velocity; for those in bodies().
   [[nodiscard]] const Twist& change(std::size_t body) const noexcept { return change_[body]; }
   [[nodiscard]] double impulse_of(std::size_t row) const noexcept { return solved_[row].impulse; }
@@ -95,9 +100,14 @@ class Mechanism {
   void collect() noexcept;
   double eliminate(std::size_t row, std::size_t before) noexcept;
   void fill_matrix(std::size_t place) noexcept;
+  void meet_equalities() noexcept;
+  [[nodiscard]] double* column_of(std::size_t column) noexcept { return &columns_[column * rows_.capacity()]; }
+  void make_column(std::size_t column) noexcept;
   void solve_limited() noexcept;
   double sweep() noexcept;
   void leap() noexcept;
+  void solve_free() noexcept;
+  bool go_as_far_as_limits() noexcept;
   void spread() noexcept;
   [[nodiscard]] std::pair<double, double> limits_of(std::size_t row) const noexcept;
 
@@ -118,6 +128,12 @@ class Mechanism {
   std::vector<std::size_t> free_;      // places of those that are within their limits
   std::vector<double> free_factor_;
   std::vector<double> step_;
+  std::span<const std::size_t> condensed_;  // bodies
+  std::span<const Frame> frames_;           // theirs
+  // left_ and wanted_, one after the other: as solve() had them, then for a speed of 1 in each of a condensed body's six directions
+  std::vector<double> columns_;
+  std::vector<double> products_;  // of the columns' equalities with each other
+  std::vector<double> pushes_;    // by column
   int sweeps_ = 0;
 };
 
