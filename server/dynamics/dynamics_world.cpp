@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "server/base/assert.hpp"
 #include "server/dynamics/body_contacts.hpp"
+#include "server/dynamics/bullet_math.hpp"
+#include "server/dynamics/contact_solver.hpp"
 #include "server/dynamics/coupling_rows.hpp"
 #include "server/dynamics/grasp_rows.hpp"
 #include "server/dynamics/joint_rows.hpp"
@@ -17,108 +19,6 @@
 
 namespace mechane::dynamics {
 namespace {
-
-constexpr int kContactSweeps = 60;
-constexpr double kContactResidual = 1e-20;  // (m/s)^2: the sweeps end when no contact changes by more than 1e-10 m/s
-
-btVector3 to_bt(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-btQuaternion to_bt(const Quat& q) {
-  return {q.x(), q.y(), q.z(), q.w()};
-}
-btTransform to_bt(const Pose& X) {
-  return btTransform(to_bt(X.R), to_bt(X.p));
-}
-Vec3 from_bt(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-/// Bullet's solver of contacts. Where they act on bodies of the mechanism, its rows are solved again after each of Bullet's sweeps.
-class ContactSolver final : public btSequentialImpulseConstraintSolver {
- public:
-  ContactSolver(Mechanism& mechanism, const std::vector<Frame>& frames, const std::vector<Twist>& free)
-      : mechanism_(mechanism), frames_(frames), free_(free) {}
-
-  /// Those of the mechanism's bodies that have contacts in this step; Bullet's and ours.
-  void clear_shared() {
-    shared_.clear();
-    bullets_.clear();
-    pushes_.clear();
-  }
-  void add_shared(const btCollisionObject& bullet, std::size_t body) {
-    shared_.push_back(body);
-    bullets_.push_back(&bullet);
-    pushes_.emplace_back();
-  }
-  void reserve(std::size_t bodies) {
-    shared_.reserve(bodies);
-    bullets_.reserve(bodies);
-    pushes_.reserve(bodies);
-    V_.resize(bodies);
-  }
-
- protected:
-  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
-                                btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** constraints,
-                                int constraint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override {
-    if (iteration == 0 && !shared_.empty()) {
-      mechanism_.condense(shared_, frames_);
-      give_changes();
-    }
-    const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
-        iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, draw);
-    if (shared_.empty()) return residual;
-    for (std::size_t i = 0; i < shared_.size(); ++i) {
-      const btSolverBody& body = solver_body(i);
-      pushes_[i].v = from_bt(body.m_deltaLinearVelocity) - mechanism_.change(shared_[i]).v;
-      pushes_[i].w = from_bt(body.m_deltaAngularVelocity) - mechanism_.change(shared_[i]).w;
-    }
-    mechanism_.respond(pushes_);
-    return std::max(residual, give_changes());
-  }
-
-  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
-                                         const btContactSolverInfo& info) override {
-    if (!shared_.empty()) {
-      for (const std::size_t body : mechanism_.bodies())
-        V_[body] = free_[body];
-      for (std::size_t i = 0; i < shared_.size(); ++i) {
-        V_[shared_[i]].v += pushes_[i].v;
-        V_[shared_[i]].w += pushes_[i].w;
-      }
-      mechanism_.solve(V_);
-      give_changes();
-    }
-    return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, body_count, info);
-  }
-
- private:
-  btSolverBody& solver_body(std::size_t i) { return m_tmpSolverBodyPool[bullets_[i]->getCompanionId()]; }
-
-  /// Writes what contacts and the mechanism do to the shared bodies to Bullet's. Returns the square of the greatest change.
-  double give_changes() {
-    double most = 0;
-    for (std::size_t i = 0; i < shared_.size(); ++i) {
-      btSolverBody& body = solver_body(i);
-      const Twist& change = mechanism_.change(shared_[i]);
-      const Vec3 v = change.v + pushes_[i].v, w = change.w + pushes_[i].w;
-      most = std::max({most, (v - from_bt(body.m_deltaLinearVelocity)).squaredNorm(),
-                       (w - from_bt(body.m_deltaAngularVelocity)).squaredNorm()});
-      body.m_deltaLinearVelocity = to_bt(v);
-      body.m_deltaAngularVelocity = to_bt(w);
-    }
-    return most;
-  }
-
-  Mechanism& mechanism_;
-  const std::vector<Frame>& frames_;
-  const std::vector<Twist>& free_;
-  std::vector<std::size_t> shared_;
-  std::vector<const btCollisionObject*> bullets_;  // of the shared
-  std::vector<Twist> pushes_;                      // what contacts do to them
-  std::vector<Twist> V_;                           // by body, without the mechanism's impulses
-};
 
 /// A body of ours and the same body in Bullet, which uses another frame. C is the centre of mass with the principal axes.
 struct Body {
@@ -219,7 +119,6 @@ struct DynamicsWorld::Impl {
   std::vector<Twist> free;                  // by body, its velocity after the step but for all rows and contacts
   Mechanism mechanism;
   ContactSolver contact_solver{mechanism, frames, free};
-  btContactSolverInfo solver_info;
   std::vector<btCollisionObject*> touching;  // those that have contacts in this step and can move; capacity for all
   std::vector<char> touches;                 // by body: it is in touching
 
@@ -296,8 +195,9 @@ void DynamicsWorld::Impl::reserve() {
   const std::size_t of_couplings = couplings ? couplings->most_rows() : 0;
   const std::size_t of_pairs = joints.size() * RowSet::kMost;
   const std::size_t of_grips = grips.size() * RowSet::kMost;
-  mechanism.reserve(of_pairs + of_grips + of_couplings, 2 * of_pairs + of_grips + state::kMaxRopeNodes * of_couplings,
-                    bodies.size());
+  const std::size_t of_contacts = contacts ? ContactSolver::kMostOwnRows : 0;
+  mechanism.reserve(of_pairs + of_grips + of_couplings + of_contacts,
+                    2 * (of_pairs + of_contacts) + of_grips + state::kMaxRopeNodes * of_couplings, bodies.size());
   frames.resize(bodies.size());
   free.resize(bodies.size());
   touches.resize(bodies.size());
@@ -305,9 +205,6 @@ void DynamicsWorld::Impl::reserve() {
   contact_solver.reserve(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
     bodies[i]->bullet.setUserIndex(static_cast<int>(i));
-  solver_info.m_numIterations = kContactSweeps;
-  solver_info.m_leastSquaresResidualThreshold = kContactResidual;
-  set_contact_solver(solver_info);
   if (contacts) solve(contacts->fill(), 1e-3);
 }
 
@@ -323,7 +220,6 @@ void DynamicsWorld::step(state::WorldState& state, double dt_s) noexcept {
   if (impl_->couplings) impl_->couplings->gather(state, impl_->frames, impl_->axes, dt_s, impl_->mechanism);
   impl_->free_velocities(dt_s);
   impl_->mechanism.factor();
-  impl_->mechanism.solve(impl_->free);
   impl_->solve(impl_->contacts ? impl_->contacts->find(state, dt_s) : std::span<btPersistentManifold*>(), dt_s);
   impl_->move_bodies(state, dt_s);
   impl_->store_joints(state);
@@ -466,11 +362,8 @@ void DynamicsWorld::Impl::free_velocities(double dt_s) {
 /// The bodies' velocities after the step.
 void DynamicsWorld::Impl::solve(std::span<btPersistentManifold*> manifolds, double dt_s) {
   find_touching(manifolds);
-  if (!manifolds.empty()) {
-    solver_info.m_timeStep = dt_s;
-    contact_solver.solveGroup(touching.data(), static_cast<int>(touching.size()), manifolds.data(),
-                              static_cast<int>(manifolds.size()), nullptr, 0, solver_info, nullptr, nullptr);
-  }
+  if (!contact_solver.has_bodies()) mechanism.solve(free);
+  if (!manifolds.empty()) contact_solver.solve(touching, manifolds, dt_s);
   for (const std::size_t body : mechanism.bodies()) {
     free[body].v += mechanism.change(body).v;
     free[body].w += mechanism.change(body).w;
@@ -494,9 +387,9 @@ void DynamicsWorld::Impl::find_touching(std::span<btPersistentManifold*> manifol
       touching.push_back(&bodies[body]->bullet);
     }
   }
-  contact_solver.clear_shared();
+  contact_solver.clear();
   for (const std::size_t body : mechanism.bodies()) {
-    if (touches[body] != 0) contact_solver.add_shared(bodies[body]->bullet, body);
+    if (touches[body] != 0) contact_solver.add(bodies[body]->bullet);
   }
 }
 

@@ -17,12 +17,18 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr int kMostSweeps = 60;
 constexpr double kResidual = 1e-20;  // (m/s)^2: the sweeps end when no row changes by more than 1e-10 m/s
 
-/// The sum of products of two rows of a factor, from one column to before another.
+/// The sum of products of two rows of a factor, from one column to before another. In four parts, because a processor adds four numbers
+/// at once, but only one after another to the same sum.
 double product(const double* a, const double* b, std::size_t from, std::size_t end) {
-  double sum = 0;
-  for (std::size_t k = from; k < end; ++k)
-    sum += a[k] * b[k];
-  return sum;
+  std::array<double, 4> sums{};
+  std::size_t k = from;
+  for (; k + sums.size() <= end; k += sums.size()) {
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      sums[i] += a[k + i] * b[k + i];
+  }
+  for (; k < end; ++k)
+    sums[0] += a[k] * b[k];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 }  // namespace
@@ -36,6 +42,8 @@ void Mechanism::reserve(std::size_t rows, std::size_t terms, std::size_t bodies)
   bodies_.reserve(bodies);
   first_of_.resize(bodies);
   seen_.resize(bodies);
+  next_.resize(bodies);
+  end_of_.resize(bodies);
   change_.resize(bodies);
   for (std::vector<double>* matrix : {&factor_, &matrix_, &free_factor_})
     matrix->resize(rows_.capacity() * rows_.capacity());
@@ -51,6 +59,12 @@ void Mechanism::clear() noexcept {
   rows_.clear();
   terms_.clear();
   solved_.clear();
+  equal_.clear();
+  limited_.clear();
+  for (const std::size_t body : bodies_)
+    seen_[body] = 0;
+  bodies_.clear();
+  factored_ = 0;
 }
 
 std::size_t Mechanism::add(const MechanismRow& row) noexcept {
@@ -108,24 +122,33 @@ double Mechanism::shared(std::size_t a, std::size_t b) const noexcept {
   return sum;
 }
 
-/// Sorts the rows into equalities and others, and finds their bodies.
-void Mechanism::collect() noexcept {
-  equal_.clear();
-  limited_.clear();
-  for (const std::size_t body : bodies_)
-    seen_[body] = 0;
-  bodies_.clear();
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    std::vector<std::size_t>& list = rows_[i].limit == RowLimit::none ? equal_ : limited_;
+/// The body that stands for all that rows tie to this one.
+std::size_t Mechanism::group_of(std::size_t body) noexcept {
+  while (next_[body] != body)
+    body = next_[body] = next_[next_[body]];
+  return body;
+}
+
+/// Sorts new rows into equalities and others, and finds their bodies and which of these they tie together.
+void Mechanism::collect(std::size_t from) noexcept {
+  for (std::size_t i = from; i < rows_.size(); ++i) {
+    const bool equality = rows_[i].limit == RowLimit::none;
+    std::vector<std::size_t>& list = equality ? equal_ : limited_;
     solved_[i].place = list.size();
-    solved_[i].impulse = 0;
     solved_[i].response = rows_[i].softness + shared(i, i);
     list.push_back(i);
     for (const Term& term : terms_of(i)) {
-      if (seen_[term.body] != 0) continue;
-      seen_[term.body] = 1;
-      bodies_.push_back(term.body);
-      first_of_[term.body] = kGround;
+      const std::size_t body = term.body;
+      if (seen_[body] == 0) {
+        seen_[body] = 1;
+        bodies_.push_back(body);
+        first_of_[body] = kGround;
+        next_[body] = body;
+        end_of_[body] = 0;
+      }
+      const std::size_t of_row = group_of(terms_of(i).front().body), other = group_of(body);
+      next_[other] = of_row;
+      end_of_[of_row] = std::max({end_of_[of_row], end_of_[other], equality ? equal_.size() : 0});
     }
   }
 }
@@ -136,9 +159,10 @@ double Mechanism::eliminate(std::size_t row, std::size_t before) noexcept {
   own.first = before;
   for (const Term& term : terms_of(row))
     own.first = std::min(own.first, first_of_[term.body]);
+  own.end = terms_of(row).empty() ? before : std::min(before, end_of_[group_of(terms_of(row).front().body)]);
   double* of_row = factor_of(row);
   double left = own.response;
-  for (std::size_t j = own.first; j < before; ++j) {
+  for (std::size_t j = own.first; j < own.end; ++j) {
     const Solved& other = solved_[equal_[j]];
     const double* of_other = factor_of(equal_[j]);
     const double rest = shared(row, equal_[j]) - product(of_row, of_other, std::max(own.first, other.first), j);
@@ -152,22 +176,26 @@ double Mechanism::eliminate(std::size_t row, std::size_t before) noexcept {
 void Mechanism::fill_matrix(std::size_t place) noexcept {
   const std::size_t row = limited_[place];
   for (std::size_t other = 0; other < place; ++other) {
-    const std::size_t from = std::max(solved_[row].first, solved_[limited_[other]].first);
+    const Solved &own = solved_[row], &of_other = solved_[limited_[other]];
     const double value =
-        shared(row, limited_[other]) - product(factor_of(row), factor_of(limited_[other]), from, equal_.size());
+        shared(row, limited_[other]) - product(factor_of(row), factor_of(limited_[other]),
+                                               std::max(own.first, of_other.first), std::min(own.end, of_other.end));
     matrix_of(place)[other] = matrix_of(other)[place] = value;
   }
 }
 
 void Mechanism::factor() noexcept {
-  collect();
-  for (std::size_t k = 0; k < equal_.size(); ++k) {
+  const std::size_t equalities = equal_.size(), limited = limited_.size();
+  collect(factored_);
+  MECHANE_ASSERT(factored_ == 0 || equal_.size() == equalities);
+  factored_ = rows_.size();
+  for (std::size_t k = equalities; k < equal_.size(); ++k) {
     const double left = eliminate(equal_[k], k);
     solved_[equal_[k]].inverse = left > 0 ? 1 / std::sqrt(left) : 0;
     for (const Term& term : terms_of(equal_[k]))
       first_of_[term.body] = std::min(first_of_[term.body], k);
   }
-  for (std::size_t place = 0; place < limited_.size(); ++place) {
+  for (std::size_t place = limited; place < limited_.size(); ++place) {
     matrix_of(place)[place] = eliminate(limited_[place], equal_.size());
     fill_matrix(place);
     impulses_[place] = 0;
@@ -194,7 +222,7 @@ void Mechanism::meet_equalities() noexcept {
   }
   for (std::size_t place = 0; place < limited_.size(); ++place) {
     const Solved& row = solved_[limited_[place]];
-    wanted_[place] = row.wanted - product(factor_of(limited_[place]), left_.data(), row.first, equal_.size());
+    wanted_[place] = row.wanted - product(factor_of(limited_[place]), left_.data(), row.first, row.end);
   }
 }
 
@@ -255,10 +283,9 @@ void Mechanism::respond(std::span<const Twist> pushes) noexcept {
 
 /// Gauss-Seidel, with a direct solution of what is within its limits in between.
 void Mechanism::solve_limited() noexcept {
-  for (sweeps_ = 0; sweeps_ < kMostSweeps;) {
-    ++sweeps_;
+  for (int sweeps = 1; sweeps <= kMostSweeps; ++sweeps) {
     if (sweep() <= kResidual) return;
-    if (sweeps_ % 2 == 0) leap();
+    if (sweeps % 2 == 0) leap();
   }
 }
 
@@ -368,7 +395,7 @@ void Mechanism::spread() noexcept {
     const double impulse = solved_[limited_[place]].impulse = impulses_[place];
     if (impulse == 0) continue;
     const double* of_row = factor_of(limited_[place]);
-    for (std::size_t j = solved_[limited_[place]].first; j < equal_.size(); ++j)
+    for (std::size_t j = solved_[limited_[place]].first; j < solved_[limited_[place]].end; ++j)
       left_[j] -= of_row[j] * impulse;
   }
   for (std::size_t k = equal_.size(); k-- > 0;) {

@@ -2,7 +2,7 @@
 //
 // Equalities are solved directly: their matrix J M^-1 J^T is factored within its profile, which is narrow, because joints of a machine
 // form trees with short loops. What has limits (friction, stops, ropes, grips) is left as a small dense system with the equalities
-// already eliminated. Contacts between bodies are Bullet's; where they act on these bodies, both are solved in turn.
+// already eliminated. Contacts come in as rows with limits (see contact_solver.hpp).
 #pragma once
 
 #include <cstddef>
@@ -56,7 +56,11 @@ class Mechanism {
   /// The bodies that the rows move, after factor().
   [[nodiscard]] std::span<const std::size_t> bodies() const noexcept { return bodies_; }
 
-  /// Prepares the rows for solve(). Those that repeat others, to a billionth of their response, are left out and get no impulse.
+  /// Whether the rows move a body, after factor(); never the ground.
+  [[nodiscard]] bool moves(std::size_t body) const noexcept { return body != kGround && seen_[body] != 0; }
+
+  /// Prepares the rows for solve(). Equalities that repeat others, to a billionth of their response, are left out and get no impulse.
+  /// Rows may be added afterwards, and this called again for them: such that have limits, and bodies that are in bodies().
   void factor() noexcept;
   /// Finds the impulses. `V`: by body, its velocity without them. May be called again for other velocities; it then begins with the
   /// impulses found.
@@ -70,10 +74,6 @@ class Mechanism {
   [[nodiscard]] const Twist& change(std::size_t body) const noexcept { return change_[body]; }
   [[nodiscard]] double impulse_of(std::size_t row) const noexcept { return solved_[row].impulse; }
 
-  /// How many rows have limits, and how often they were swept in the last solve().
-  [[nodiscard]] std::size_t limited() const noexcept { return limited_.size(); }
-  [[nodiscard]] int sweeps() const noexcept { return sweeps_; }
-
  private:
   struct Term {
     std::size_t body = 0;
@@ -85,7 +85,8 @@ class Mechanism {
   /// What factor() and solve() find for a row.
   struct Solved {
     std::size_t first_term = 0;
-    std::size_t first = 0;  // equality in whose column its row of the factor begins
+    std::size_t first = 0;  // equality in whose column its row of the factor begins, and
+    std::size_t end = 0;    // before which it ends
     std::size_t place = 0;  // among the limited
     double response = 0;    // of the row's value to an impulse of 1
     double inverse = 0;     // of the factor's diagonal; 0: left out
@@ -97,7 +98,8 @@ class Mechanism {
   [[nodiscard]] double* factor_of(std::size_t row) noexcept { return &factor_[row * rows_.capacity()]; }
   [[nodiscard]] double* matrix_of(std::size_t place) noexcept { return &matrix_[place * rows_.capacity()]; }
   [[nodiscard]] double shared(std::size_t a, std::size_t b) const noexcept;
-  void collect() noexcept;
+  void collect(std::size_t from) noexcept;
+  [[nodiscard]] std::size_t group_of(std::size_t body) noexcept;
   double eliminate(std::size_t row, std::size_t before) noexcept;
   void fill_matrix(std::size_t place) noexcept;
   void meet_equalities() noexcept;
@@ -119,13 +121,17 @@ class Mechanism {
   std::vector<std::size_t> bodies_;
   std::vector<std::size_t> first_of_;  // by body: the first equality that moves it
   std::vector<char> seen_;             // by body: it is in bodies_
-  std::vector<Twist> change_;          // by body
-  std::vector<double> factor_;         // a row's coefficients over equal_
-  std::vector<double> matrix_;         // over limited_, with the equalities eliminated
-  std::vector<double> left_;           // by equality, in a solve
-  std::vector<double> wanted_;         // by limited row, with the equalities eliminated
-  std::vector<double> impulses_;       // likewise
-  std::vector<std::size_t> free_;      // places of those that are within their limits
+  std::vector<std::size_t>
+      next_;  // by body: another that rows tie it to, nearer to the one that stands for their group, or itself
+  std::vector<std::size_t>
+      end_of_;                  // by the body that stands for a group: behind the last equality that moves one of them
+  std::vector<Twist> change_;   // by body
+  std::vector<double> factor_;  // a row's coefficients over equal_
+  std::vector<double> matrix_;  // over limited_, with the equalities eliminated
+  std::vector<double> left_;    // by equality, in a solve
+  std::vector<double> wanted_;  // by limited row, with the equalities eliminated
+  std::vector<double> impulses_;   // likewise
+  std::vector<std::size_t> free_;  // places of those that are within their limits
   std::vector<double> free_factor_;
   std::vector<double> step_;
   std::span<const std::size_t> condensed_;  // bodies
@@ -134,7 +140,7 @@ class Mechanism {
   std::vector<double> columns_;
   std::vector<double> products_;  // of the columns' equalities with each other
   std::vector<double> pushes_;    // by column
-  int sweeps_ = 0;
+  std::size_t factored_ = 0;      // rows
 };
 
 }  // namespace mechane::dynamics
