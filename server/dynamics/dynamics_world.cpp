@@ -150,6 +150,11 @@ DynamicsWorld::~DynamicsWorld() = default;
 Expected<std::unique_ptr<DynamicsWorld>> DynamicsWorld::create(const state::WorldDescription& description,
                                                                const state::WorldState& state) {
   MECHANE_ASSERT(state.bodies.size() == description.bodies.size() && state.joints.size() == description.joints.size());
+  if (const std::size_t most = std::max(state.joints.size(), state.couplings.size()); most > state::kMaxJoints)
+    return fail(
+        ErrorCode::too_large,
+        std::to_string(most) + " joints or couplings are too many: a world takes " + std::to_string(state::kMaxJoints),
+        {}, "make one body of those that do not move on each other, or divide the exhibit");
   auto impl = std::make_unique<Impl>();
   impl->gravity_W = description.gravity_W;
   for (const state::BodyDescription& from : description.bodies) {
@@ -196,8 +201,10 @@ void DynamicsWorld::Impl::reserve() {
   const std::size_t of_pairs = joints.size() * RowSet::kMost;
   const std::size_t of_grips = grips.size() * RowSet::kMost;
   const std::size_t of_contacts = contacts ? ContactSolver::kMostOwnRows : 0;
+  const std::size_t tied = 2 * joints.size() + grips.size() + state::kMaxRopeNodes * of_couplings;
   mechanism.reserve(of_pairs + of_grips + of_couplings + of_contacts,
-                    2 * (of_pairs + of_contacts) + of_grips + state::kMaxRopeNodes * of_couplings, bodies.size());
+                    2 * (of_pairs + of_contacts) + of_grips + state::kMaxRopeNodes * of_couplings, bodies.size(),
+                    std::min(tied, bodies.size()));
   frames.resize(bodies.size());
   free.resize(bodies.size());
   touches.resize(bodies.size());

@@ -33,7 +33,7 @@ double product(const double* a, const double* b, std::size_t from, std::size_t e
 
 }  // namespace
 
-void Mechanism::reserve(std::size_t rows, std::size_t terms, std::size_t bodies) {
+void Mechanism::reserve(std::size_t rows, std::size_t terms, std::size_t bodies, std::size_t tied) {
   rows_.reserve(rows);
   terms_.reserve(terms);
   solved_.reserve(rows);
@@ -49,7 +49,7 @@ void Mechanism::reserve(std::size_t rows, std::size_t terms, std::size_t bodies)
     matrix->resize(rows_.capacity() * rows_.capacity());
   for (std::vector<double>* values : {&left_, &wanted_, &impulses_, &step_})
     values->resize(rows);
-  const std::size_t columns = 1 + kAxes * bodies;
+  const std::size_t columns = 1 + kAxes * tied;
   columns_.resize(columns * rows_.capacity());
   products_.resize(columns * columns);
   pushes_.resize(columns);
@@ -237,6 +237,7 @@ void Mechanism::condense(std::span<const std::size_t> bodies, std::span<const Fr
   frames_ = frames;
   make_column(0);
   const std::size_t columns = 1 + kAxes * bodies.size();
+  MECHANE_ASSERT(columns <= pushes_.size());
   for (std::size_t column = 1; column < columns; ++column) {
     const std::size_t body = bodies[(column - 1) / kAxes];
     const auto axis = static_cast<Eigen::Index>((column - 1) % kAxes);

@@ -38,8 +38,8 @@ struct MechanismRow {
 /// Rows of one step. One thread; only reserve() allocates.
 class Mechanism {
  public:
-  /// Room for so many rows with so many terms in all; more are a bug.
-  void reserve(std::size_t rows, std::size_t terms, std::size_t bodies);
+  /// Room for so many rows with so many terms in all, which move up to `tied` of the bodies; more are a bug.
+  void reserve(std::size_t rows, std::size_t terms, std::size_t bodies, std::size_t tied);
   void clear() noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
 

@@ -41,7 +41,7 @@ struct Drawn {
     const std::size_t limited = *rc::gen::inRange<std::size_t>(0, kMostRows / 2);
     for (std::size_t i = 0; i < equalities + limited; ++i)
       rows.push_back(any_row(i, i < equalities));
-    mechanism.reserve(kMostRows, 2 * kMostRows, kBodies);
+    mechanism.reserve(kMostRows, 2 * kMostRows, kBodies, kBodies);
     mechanism.clear();
     for (const At& at : rows)
       mechanism.add_row(at.row, at.body1, at.body2, frames);
