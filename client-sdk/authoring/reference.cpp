@@ -100,6 +100,12 @@ constexpr std::string_view kShapesRules = R"(```
   nodes have their `DEF` for a name.
 - A `CollisionCollection` gives the bodies of its `collidables` their `bounce` and, where its `appliedParameters` say so, the first of its
   `frictionCoefficients`.
+- Events run in the world's time, from the beginning of its activity: `TimeSensor`, `ScalarInterpolator`, `PositionInterpolator`,
+  `OrientationInterpolator`, `ScalarDamper`, `PositionDamper`, `OrientationDamper`, `CollisionSensor`, `ProximitySensor` (of hands),
+  `BooleanFilter`, `BooleanToggle`, `BooleanTrigger`, `TimeTrigger`, and `ROUTE`s among them. They move a `Transform` with shapes
+  (`translation`, `rotation`), which is then a body of its `DEF`, and a `RigidBody` with `fixed='true'` (`position`, `orientation`), which
+  pushes others. What a body does can be routed on, and quantities can read each field, such as `CLOCK.fraction_changed` and
+  `DAMPER.value_changed.x`. A `startTime` of 0 is past: without `loop`, such a clock waits for an event.
 - A file without `mechane:scenario` moves as X3D has it: without `autoDamp` nothing slows its bodies down.
 - VRML files (`.wrl`, `.x3dv`) are not read: `tovrmlx3d --encoding xml IN.wrl > OUT.x3d` makes X3D of them.
 )";

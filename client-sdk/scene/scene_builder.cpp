@@ -260,6 +260,8 @@ void SceneBuilder::find_place() {
   focus_box_W_ = interest_W_.cast<float>().intersection({touched - sharp, touched + sharp});
   // The plain lies under the modelled ground, which is never quite level.
   if (!box_W_.isEmpty()) ground_height_m_ = scenery_.empty() ? std::min(box_W_.min().y(), 0.0F) : -0.06F;
+  // A file without scenery and activities is not an exhibit: nothing says where its ground is, and things may fall or hang below 0.
+  if (scenery_.empty() && presentation_ != nullptr && presentation_->activities.empty()) ground_height_m_.reset();
   camera_ = standpoint();
   if (!brings_landscape()) return;
   ground_height_m_ = box_W_.min().y();  // below its rivers, too

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/agents/agent.hpp"
+#include "server/agents/event_graph.hpp"
 #include "server/agents/progress.hpp"
 #include "server/agents/quantities.hpp"
 #include "server/agents/touches.hpp"
@@ -15,6 +16,7 @@ struct AgentSet::Impl {
   std::vector<std::unique_ptr<Agent>> agents;
   std::vector<std::size_t> order;  // those that switch others first, then as in the description
   std::vector<state::Coupling> couplings;
+  EventGraph events;
   Touches touches;
   ProgressRules progress;
   Quantities quantities;
@@ -52,6 +54,7 @@ Expected<std::unique_ptr<AgentSet>> AgentSet::create(const state::WorldDescripti
       if (impl->agents[i]->switches_others() == first) impl->order.push_back(i);
     }
   }
+  impl->events = EventGraph(description, layout);
   impl->touches = Touches(description, layout);
   auto progress = ProgressRules::create(description, layout);
   if (!progress) return tl::unexpected(progress.error());
@@ -83,6 +86,7 @@ void AgentSet::run(state::WorldState& state, std::span<const state::Command> com
   }
   for (std::size_t b = 0; impl_->changes_surfaces && b < state.bodies.size(); ++b)
     state.bodies[b].haptic = impl_->description->bodies[b].haptic;
+  impl_->events.run(state, dt_s);
   for (const std::size_t i : impl_->order)
     impl_->agents[i]->run(state, state.agent_enabled[i] != 0, dt_s);
   impl_->touches.run(state, dt_s);

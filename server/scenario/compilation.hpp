@@ -58,6 +58,7 @@ void compile_bodies(Compilation& c);      // RigidBodyCollection, RigidBody, mec
 void compile_scenery(Compilation& c);     // shapes of X3D that belong to no body
 void compile_joints(Compilation& c);      // X3D's joints
 void compile_components(Compilation& c);  // mechane:agent on nodes, agents and machines of the tree
+void compile_events(Compilation& c);  // X3D's sensors, interpolators, dampers and ROUTEs, and the bodies that they move
 void compile_quantities(Compilation& c);
 void compile_viewpoints(Compilation& c);
 void compile_effects(Compilation& c);     // of quantities, seen and heard
@@ -123,6 +124,9 @@ void report_unknown(Compilation& c, const Place& at, std::string_view word, cons
 
 /// The questions of an activity; their lines go to Compilation::question_lines.
 [[nodiscard]] std::vector<state::QuestionDescription> read_questionnaire(Compilation& c, const Fields& activity);
+
+/// Adds the body of shapes that the file itself holds: of a node of that name, at an element's line.
+state::BodyDescription& add_own_body(Compilation& c, const std::string& name, x3d::NodeId id);
 
 /// A parameter's written number, or the type's default; infinity where neither is known.
 [[nodiscard]] double parameter_of(const state::ComponentDescription& component, const state::ComponentType& type,

@@ -331,23 +331,26 @@ void compile_body(Compilation& c, x3d::NodeId id) {
 
 }  // namespace
 
-void compile_scenery(Compilation& c) {
-  if (!c.shapes.has_scenery() || c.world.find_body(x3d::kScenery)) return;
-  const x3d::NodeId scene = c.document.scene();
+state::BodyDescription& add_own_body(Compilation& c, const std::string& name, x3d::NodeId id) {
   state::BodyDescription body;
-  body.name = x3d::kScenery;
+  body.name = name;
   body.fixed = true;
-  const ShapeNodes shape{own_url(c), body.name, body.name};
+  const ShapeNodes shape{own_url(c), name, name};
   body.mesh = {shape.url, c.model_hashes[shape.url], shape.drawn};
   auto object = c.loader.load(c.document.path().parent_path() / shape.url, shape.touched, {});
   if (object) {
     body.object = std::move(*object);
   } else {
-    refuse_node(c, shape, {c.document.describe(scene), c.document[scene].line}, shape.touched, object.error());
+    refuse_node(c, shape, {c.document.describe(id), c.document[id].line}, shape.touched, object.error());
   }
   c.world.bodies.push_back(std::move(body));
-  c.body_lines.push_back(c.document[scene].line);
+  c.body_lines.push_back(c.document[id].line);
   c.touchable.push_back(true);
+  return c.world.bodies.back();
+}
+
+void compile_scenery(Compilation& c) {
+  if (c.shapes.has_scenery() && !c.world.find_body(x3d::kScenery)) add_own_body(c, x3d::kScenery, c.document.scene());
 }
 
 void compile_bodies(Compilation& c) {

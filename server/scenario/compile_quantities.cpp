@@ -21,11 +21,24 @@ void add_values(const state::ComponentType* type, std::vector<std::string>& valu
     values.emplace_back(value.name);
 }
 
+/// Of X3D's nodes that send events, what can be read as numbers. Bodies have names of their own for theirs.
+void add_fields(const state::EventNode& node, std::vector<std::string>& values) {
+  for (const state::EventField& field : node.fields) {
+    if (node.body || !field.sends) continue;
+    if (field.start.size() == 1) values.push_back(field.name);
+    for (const char* axis : {".x", ".y", ".z"}) {
+      if (field.start.size() == 3) values.push_back(field.name + axis);
+    }
+  }
+}
+
 /// The values that may follow the dot; empty where nothing has the name. An agent and its joint may share a name.
 std::vector<std::string> values_of(const state::WorldDescription& world, const std::string& name) {
   std::vector<std::string> values;
   if (const auto* agent = find_component(world.agents, name)) add_values(find_agent_type(agent->type), values);
   if (const auto* machine = find_component(world.machines, name)) add_values(find_machine_type(machine->type), values);
+  const auto event = std::ranges::find(world.events.nodes, name, &state::EventNode::name);
+  if (event != world.events.nodes.end()) add_fields(*event, values);
   if (world.find_joint(name)) values.insert(values.end(), {"position", "angle", "rate", "turns"});
   if (world.find_body(name)) values.insert(values.end(), {"position.x", "position.y", "position.z", "speed"});
   return values;
@@ -33,7 +46,8 @@ std::vector<std::string> values_of(const state::WorldDescription& world, const s
 
 std::vector<std::string> all_sources(const state::WorldDescription& world) {
   std::vector<std::string> names = names_of(world.agents);
-  for (const auto& more : {names_of(world.machines), names_of(world.joints), names_of(world.bodies)})
+  for (const auto& more :
+       {names_of(world.machines), names_of(world.joints), names_of(world.bodies), names_of(world.events.nodes)})
     names.insert(names.end(), more.begin(), more.end());
   return names;
 }
@@ -48,7 +62,7 @@ void check_source(Compilation& c, const std::string& source, int line, const std
   if (values.empty() && has_no_type) return;  // its unknown type has been reported
   if (values.empty()) {
     c.problems.error(ErrorCode::unknown_name, line, where,
-                     fmt::format("the source '{}' does not name an agent, machine, joint or body", source),
+                     fmt::format("the source '{}' does not name an agent, machine, joint, body or sensor", source),
                      suggest(name, all_sources(c.world), "add an agent or a machine"));
   } else if (std::find(values.begin(), values.end(), value) == values.end()) {
     c.problems.error(ErrorCode::unknown_name, line, where, fmt::format("'{}' has no value '{}'", name, value),

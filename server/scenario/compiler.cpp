@@ -198,6 +198,7 @@ void compile_all(Compilation& c) {
   compile_scenery(c);
   compile_joints(c);
   compile_components(c);
+  compile_events(c);
   compile_quantities(c);
   compile_viewpoints(c);
   compile_effects(c);

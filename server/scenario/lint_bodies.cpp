@@ -65,7 +65,7 @@ bool has_weight(const state::WorldDescription& world, const state::BodyDescripti
 bool is_loose(const state::WorldDescription& world, const StepDescription& first, BodyId id) {
   const state::BodyDescription& body = world.bodies[id.index()];
   const state::BodyOverride* change = override_of(first, id);
-  const bool movable = !body.fixed && (change == nullptr || change->movable.value_or(true));
+  const bool movable = !body.fixed && (change == nullptr ? !body.driven : change->movable.value_or(!body.driven));
   return movable && !body.collides && !moved_by_machine(world, body.name) && !has_own_joint(world, id);
 }
 

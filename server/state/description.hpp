@@ -12,6 +12,7 @@
 #include "server/base/ids.hpp"
 #include "server/base/math.hpp"
 #include "server/collision/object.hpp"
+#include "server/state/event_description.hpp"
 
 namespace mechane::state {
 
@@ -39,7 +40,8 @@ struct MeshReference {
 
 struct BodyDescription {
   std::string name;    ///< DEF of the RigidBody
-  bool fixed = false;  ///< never moves; mass is not used
+  bool fixed = false;   ///< never moves; mass is not used
+  bool driven = false;  ///< events alone move it, until a step makes it movable
   bool use_gravity = true;
   double mass_kg = 1;                     ///< the real one; the simulation uses mass * effort_scale
   Mat3 inertia_kg_m2 = Mat3::Identity();  ///< about the centre of mass, in the body's frame, unscaled
@@ -257,6 +259,7 @@ struct WorldDescription {
   std::vector<VisitDescription> visits;
   std::vector<Viewpoint> viewpoints;  ///< the first is where a display stands
   std::vector<EffectDescription> effects;
+  EventDescription events;
 
   [[nodiscard]] BodyId find_body(const std::string& name) const;
   [[nodiscard]] JointId find_joint(const std::string& name) const;

@@ -15,7 +15,7 @@ WorldState::WorldState(const WorldDescription& description)
     const BodyDescription& from = description.bodies[i];
     bodies[i].X_WB = from.X_WB;
     bodies[i].V_WB = from.V_WB;
-    bodies[i].movable = !from.fixed;
+    bodies[i].movable = !from.fixed && !from.driven;
     bodies[i].visible = from.visible;
     bodies[i].graspable = from.graspable;
     bodies[i].haptic = from.haptic;

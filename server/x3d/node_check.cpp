@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "server/base/suggestion.hpp"
+#include "server/x3d/event_routes.hpp"
 #include "server/x3d/schema.hpp"
 
 namespace mechane::x3d {
@@ -219,6 +220,8 @@ void check_routes(const Document& document, Problems& problems) {
                        suggest(*name, defs, "give an element that DEF"));
       }
     }
+    if (const auto fault = route_fault(document, id))
+      problems.error(ErrorCode::conflict, route.line, "ROUTE", fault->what, fault->remedy);
   }
 }
 

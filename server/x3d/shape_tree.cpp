@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -61,6 +62,21 @@ std::string inlined_x3d(const Document& document, NodeId inline_node) {
   return {};
 }
 
+std::optional<Pose> frame_around(const Document& document, NodeId id) {
+  Pose X_WP;
+  for (NodeId group = document[id].parent; group && group != document.scene(); group = document[group].parent) {
+    if (!among(kGroups, document[group].name) || document[group].name == "Switch") return std::nullopt;
+    const NodeFields fields(document, group);
+    if (!fields.boolean("visible")) return std::nullopt;
+    if (fields.type() != "Transform") continue;
+    if (!fields.vector("scale").isOnes()) return std::nullopt;
+    const Quat R = fields.rotation("rotation");
+    const Vec3 center = fields.vector("center");
+    X_WP = Pose{fields.vector("translation") + center - R * center, R} * X_WP;
+  }
+  return X_WP;
+}
+
 ShapeTree::ShapeTree(const Document& document) : document_(document) {
   for (const NodeId id : document.elements("MetadataString")) {
     const std::string* value = name_of(document, id) == "model" ? document[id].attribute("value") : nullptr;
@@ -72,6 +88,7 @@ ShapeTree::ShapeTree(const Document& document) : document_(document) {
   }
   find_moved();
   find_collections();
+  find_events();
   has_scenery_ = reach(document.scene());
 }
 
@@ -130,6 +147,86 @@ void ShapeTree::find_collections() {
       used_.insert(id);
     }
   }
+}
+
+void ShapeTree::find_driven(const std::vector<RoutedFields>& routes) {
+  std::set<NodeId> targets = moved_;
+  for (const RoutedFields& route : routes)
+    targets.insert(route.to);
+  for (const NodeId id : targets) {
+    if (document_[id].name != "Transform" || moved_.contains(id) || !frame_around(document_, id)) continue;
+    NodeId around = document_[id].parent;
+    while (around && !targets.contains(around))
+      around = document_[around].parent;
+    if (!around && reach(id)) driven_.push_back(id);
+  }
+  moved_.insert(driven_.begin(), driven_.end());
+}
+
+/// Events can move what would stand still without them.
+bool ShapeTree::can_be_moved(NodeId frame) const {
+  if (document_[frame].name == "Transform") return std::binary_search(driven_.begin(), driven_.end(), frame);
+  return NodeFields(document_, frame).boolean("fixed");
+}
+
+/// What events are for: to move things, and to be read. A node from which no ROUTE leads can only be meant to be read; so can every one in
+/// a file whose quantities may name it.
+std::vector<NodeId> ShapeTree::event_goals() const {
+  const auto sets = document_.elements("MetadataSet");
+  const bool read =
+      std::ranges::any_of(sets, [&](NodeId set) { return name_of(document_, set) == "mechane:scenario"; });
+  std::set<NodeId> senders;
+  for (const NodeId route : document_.elements("ROUTE")) {
+    const std::string* from = document_[route].attribute("fromNode");
+    if (from != nullptr) senders.insert(document_.find_def(*from));
+  }
+  std::vector<NodeId> goals = driven_;
+  for (const EventNodeType& type : event_types()) {
+    for (const NodeId id : document_.elements(type.name)) {
+      if (is_frame(document_, id) ? type.name == "RigidBody" && can_be_moved(id) : read || !senders.contains(id))
+        goals.push_back(id);
+    }
+  }
+  return goals;
+}
+
+void ShapeTree::find_events() {
+  std::vector<RoutedFields> all = event_routes(document_);
+  std::erase_if(all,
+                [&](const RoutedFields& route) { return used_.contains(route.route); });  // a body's to its picture
+  find_driven(all);
+  keep_what_leads_to(event_goals(), all);
+  for (const NodeId id : event_nodes_) {
+    if (is_frame(document_, id)) continue;
+    used_.insert(id);
+    if (const NodeId collider = NodeFields(document_, id).node("collider")) used_.insert(collider);
+  }
+  for (const RoutedFields& route : routes_)
+    used_.insert(route.route);
+}
+
+void ShapeTree::keep_what_leads_to(std::vector<NodeId> goals, const std::vector<RoutedFields>& routes) {
+  std::multimap<NodeId, const RoutedFields*> into;
+  for (const RoutedFields& route : routes) {
+    const bool still = document_[route.from].name == "Transform" && !can_be_moved(route.from);
+    if (!still && (!is_frame(document_, route.to) || can_be_moved(route.to))) into.emplace(route.to, &route);
+  }
+  std::set<NodeId> kept(goals.begin(), goals.end()), routes_kept;
+  while (!goals.empty()) {
+    const auto [first, last] = into.equal_range(goals.back());
+    goals.pop_back();
+    for (auto it = first; it != last; ++it) {
+      routes_kept.insert(it->second->route);
+      if (kept.insert(it->second->from).second) goals.push_back(it->second->from);
+    }
+  }
+  std::ranges::copy_if(routes, std::back_inserter(routes_),
+                       [&](const RoutedFields& route) { return routes_kept.contains(route.route); });
+  std::set<NodeId> routed;
+  for (const RoutedFields& route : routes_)
+    routed.insert({route.from, route.to});
+  std::ranges::copy_if(kept, std::back_inserter(event_nodes_),
+                       [&](NodeId id) { return !is_frame(document_, id) || routed.contains(id); });
 }
 
 bool ShapeTree::is_drawn(NodeId id) const {

@@ -57,6 +57,9 @@ class SceneReader {
       if (!picture) continue;
       if (auto good = add_group(**source, picture, {}); !good) return tl::unexpected(good.error());
     }
+    for (const x3d::NodeId driven : tree.driven()) {
+      if (auto good = add_group(**source, driven, {}); !good) return tl::unexpected(good.error());
+    }
     if (!tree.has_scenery()) return std::move(scene_);
     if (auto good = add(**source, document.scene(), Eigen::Affine3d::Identity(), {}); !good)
       return tl::unexpected(good.error());
@@ -123,7 +126,7 @@ class SceneReader {
     return add(from, id, Eigen::Affine3d::Identity(), parent);
   }
 
-  /// A Transform as two nodes: one where it places its frame, which is that of the body whose picture it is, and within it the rest.
+  /// A Transform as two nodes: one where it places its frame, which is a body's, and within it the rest.
   Expected<void> add_group(const Source& from, x3d::NodeId id, Parent parent) {
     const x3d::NodeFields fields(from.document, id);
     std::uint32_t node = add_node(x3d::node_name(from.document, id),

@@ -303,6 +303,26 @@ TEST(SceneBuilder, a_landscape_is_seen_over_what_is_touched) {
   EXPECT_LE(*scene.ground_height_m, -0.75F) << "the plain hides nothing of the modelled land";
 }
 
+TEST(SceneBuilder, only_an_exhibit_stands_on_the_plain) {
+  AssetLibrary library([](const std::string&) -> Expected<content::ImportedScene> {
+    content::ImportedScene file = machine_file();
+    file.nodes.resize(4);  // without water
+    return file;
+  });
+  for (const bool exhibit : {false, true}) {
+    client::WorldPresentation presentation;
+    if (exhibit) presentation.activities.emplace_back();
+    SceneBuilder builder(library, "en");
+    client::SceneObject hanging = object(0, "plain.x3d", "OUTER");
+    hanging.X_WB.p = Vec3(0, -2, 0);
+    client::SceneObject scenery = object(1, "plain.x3d", "SCENE");
+    builder.set_manifest({hanging, scenery});
+    builder.set_presentation(std::make_shared<client::WorldPresentation>(presentation));
+    const picture::RenderScene scene = builder.build(nullptr, nullptr, client::LinkState::joined);
+    EXPECT_EQ(scene.ground_height_m.has_value(), exhibit);
+  }
+}
+
 TEST(SceneBuilder, trees_stand_about_an_exhibit_on_earth_once_and_not_about_a_landscape) {
   for (const double half_m : {2.0, 80.0}) {
     AssetLibrary library([&](const std::string&) -> Expected<content::ImportedScene> {
