@@ -15,6 +15,7 @@ constexpr double kSoftened = 1e-9;  // of a row's response, where rows with limi
 constexpr std::size_t kAxes = 6;    // in which a body moves
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr int kMostSweeps = 60;
+constexpr int kMostWays = 24;        // of one leap: each that ends at a limit costs a new factor of the rest
 constexpr double kResidual = 1e-20;  // (m/s)^2: the sweeps end when no row changes by more than 1e-10 m/s
 
 /// The sum of products of two rows of a factor, from one column to before another. In four parts, because a processor adds four numbers
@@ -337,9 +338,9 @@ void Mechanism::leap() noexcept {
     const auto [low, high] = limits_of(limited_[place]);
     if (matrix_of(place)[place] > 0 && impulses_[place] > low && impulses_[place] < high) free_.push_back(place);
   }
-  for (bool whole = false; !whole && !free_.empty();) {
+  for (int ways = 0; ways < kMostWays && !free_.empty(); ++ways) {
     solve_free();
-    whole = go_as_far_as_limits();
+    if (go_as_far_as_limits()) return;
   }
 }
 
