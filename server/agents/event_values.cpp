@@ -79,10 +79,11 @@ class Damper final : public EventNode {
     for (std::size_t k = 0; k < order_; ++k)
       e[k] = distance(i, &i.state.memory[filters_ + k * numbers_]);
     if (order_ == 0) e[0] = distance(i, &i.state.memory[value_.slot]);
-    if (!i.flag(active_)) {
-      if (settled(i, e)) return;
-      i.send(active_, 1.0);
+    if (settled(i, e)) {
+      if (i.flag(active_)) i.send(active_, 0.0);
+      return;
     }
+    if (!i.flag(active_)) i.send(active_, 1.0);
     advance(i, e);
     const bool done = settled(i, e);
     for (std::size_t k = 0; k < order_; ++k)

@@ -8,6 +8,7 @@
 
 #include "server/base/suggestion.hpp"
 #include "server/scenario/compilation.hpp"
+#include "server/x3d/event_routes.hpp"
 #include "server/x3d/node_check.hpp"
 #include "server/x3d/schema.hpp"
 
@@ -37,8 +38,11 @@ std::optional<Aside> aside_of(const x3d::Schema& x3d, const x3d::NodeType& type)
     return Aside{"not simulated", "use SingleAxisHingeJoint, SliderJoint or BallJoint, or an agent"};
   if (is("X3DNBodyCollidableNode") || is("X3DNBodyCollisionSpaceNode") || is("CollisionCollection"))
     return Aside{"not simulated", "put a CollidableShape into the geometry of a RigidBody"};
-  if (is("CollisionSensor") || type.name == "ROUTE" || is("X3DSensorNode") || is("X3DScriptNode") ||
-      is("X3DInterpolatorNode") || is("X3DFollowerNode") || is("X3DTriggerNode") || is("X3DSequencerNode"))
+  if (type.name == "ROUTE" || (x3d::find_event_type(type.name) != nullptr && type.name != "Transform"))
+    return Aside{"not simulated, for it leads to nothing that is",
+                 "lead it to a Transform with shapes, to a RigidBody with fixed='true', or to a node that runs"};
+  if (is("X3DSensorNode") || is("X3DScriptNode") || is("X3DInterpolatorNode") || is("X3DFollowerNode") ||
+      is("X3DTriggerNode") || is("X3DSequencerNode"))
     return Aside{"not simulated", "let agents, quantities and the triggers of steps do it"};
   if (is("X3DSoundNode") || is("X3DSoundSourceNode"))
     return Aside{"not played", "name the sound of a step by audio.<language> in its text"};

@@ -163,8 +163,8 @@ class EventCompiler {
   void read_pairs(x3d::NodeId id, const x3d::NodeFields& fields, state::EventNode& node) {
     std::vector<BodyId> bodies;
     const x3d::NodeId collider = fields.node("collider");
-    for (const x3d::NodeId body : c_.shapes.bodies()) {
-      if (!collider || c_.shapes.collection_of(body) != collider) continue;
+    if (!collider) return;
+    for (const x3d::NodeId body : c_.shapes.bodies_in(collider)) {
       const BodyId found = body_of(body);
       if (found && c_.world.bodies[found.index()].object) bodies.push_back(found);
     }

@@ -133,20 +133,27 @@ NodeId ShapeTree::collection_of(NodeId body) const {
 }
 
 void ShapeTree::find_collections() {
-  std::map<NodeId, NodeId> body_of;  // by the collidables in its geometry
   for (const NodeId body : bodies_) {
     for (const NodeId collidable : children(body))
-      body_of.emplace(collidable, body);
+      body_of_.emplace(collidable, body);
   }
   for (const NodeId id : document_.elements("CollisionCollection")) {
-    if (!NodeFields(document_, id).boolean("enabled")) continue;
-    for (const NodeId collidable : NodeFields(document_, id).nodes("collidables")) {
-      const auto body = body_of.find(collidable);
-      if (body == body_of.end()) continue;
-      collection_of_.emplace(body->second, id);
+    for (const NodeId body : bodies_in(id)) {
+      collection_of_.emplace(body, id);
       used_.insert(id);
     }
   }
+}
+
+std::set<NodeId> ShapeTree::bodies_in(NodeId collection) const {
+  std::set<NodeId> bodies;
+  const NodeFields fields(document_, collection);
+  if (!fields.boolean("enabled")) return bodies;
+  for (const NodeId collidable : fields.nodes("collidables")) {
+    const auto body = body_of_.find(collidable);
+    if (body != body_of_.end()) bodies.insert(body->second);
+  }
+  return bodies;
 }
 
 void ShapeTree::find_driven(const std::vector<RoutedFields>& routes) {
@@ -196,11 +203,8 @@ void ShapeTree::find_events() {
                 [&](const RoutedFields& route) { return used_.contains(route.route); });  // a body's to its picture
   find_driven(all);
   keep_what_leads_to(event_goals(), all);
-  for (const NodeId id : event_nodes_) {
-    if (is_frame(document_, id)) continue;
-    used_.insert(id);
-    if (const NodeId collider = NodeFields(document_, id).node("collider")) used_.insert(collider);
-  }
+  std::ranges::copy_if(event_nodes_, std::inserter(used_, used_.end()),
+                       [&](NodeId id) { return !is_frame(document_, id); });
   for (const RoutedFields& route : routes_)
     used_.insert(route.route);
 }

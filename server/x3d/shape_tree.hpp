@@ -32,6 +32,8 @@ class ShapeTree {
   [[nodiscard]] NodeId picture_of(NodeId body) const;
   /// The CollisionCollection that says how the body rubs and bounces; none where it is in no collection.
   [[nodiscard]] NodeId collection_of(NodeId body) const;
+  /// The RigidBodies of a CollisionCollection's collidables, each once, in the order written; none where it is switched off.
+  [[nodiscard]] std::set<NodeId> bodies_in(NodeId collection) const;
   /// The Transforms with shapes that events move, in the order written. Each is drawn and touched as a body of its own.
   [[nodiscard]] const std::vector<NodeId>& driven() const { return driven_; }
   /// The nodes that send and receive events, and the ROUTEs between them that lead to something; in the order written.
@@ -60,6 +62,7 @@ class ShapeTree {
   const Document& document_;
   std::vector<NodeId> bodies_;
   std::map<NodeId, NodeId> picture_of_;     // Transform by RigidBody
+  std::map<NodeId, NodeId> body_of_;        // by the collidables in its geometry
   std::map<NodeId, NodeId> collection_of_;  // by RigidBody
   std::set<NodeId> moved_;                  // those Transforms, and driven_
   std::vector<NodeId> driven_;

@@ -7,9 +7,7 @@
 namespace mechane::content {
 namespace {
 
-// Sides of a turned outline. A wheel that rolls on flats falls from edge to edge, which costs it way: it has more of them.
-constexpr std::uint32_t kAroundSphere = 144;
-constexpr std::uint32_t kAroundAxis = 432;
+constexpr std::uint32_t kAround = 144;
 constexpr std::uint32_t kUp = 36;             // of a sphere
 constexpr double kRoundCrease_rad = kPi / 4;  // smooth around, with an edge to the ends
 using Corner = Faces::Corner;
@@ -22,8 +20,8 @@ struct OutlinePoint {
 };
 
 /// Image and corners begin at the back (-z) and run counter-clockwise seen from above.
-Vec3 around(double radius, double y, std::uint32_t step, std::uint32_t sides) {
-  const double angle = 2 * kPi * step / sides;
+Vec3 around(double radius, double y, std::uint32_t step) {
+  const double angle = 2 * kPi * step / kAround;
   return {-radius * std::sin(angle), y, -radius * std::cos(angle)};
 }
 
@@ -33,20 +31,20 @@ std::uint32_t add_uv(Faces& faces, double s, double t) {
 }
 
 /// The outline, from below to above, turned about y.
-void turn_outline(std::span<const OutlinePoint> outline, std::uint32_t sides, Faces& faces) {
+void turn_outline(std::span<const OutlinePoint> outline, Faces& faces) {
   std::vector<std::uint32_t> first;  // point of each ring; a ring on the axis is one point
   for (const OutlinePoint& at : outline) {
     first.push_back(static_cast<std::uint32_t>(faces.points.size()));
-    for (std::uint32_t j = 0; j < (at.radius > 0 ? sides : 1); ++j)
-      faces.points.push_back(around(at.radius, at.y, j, sides));
+    for (std::uint32_t j = 0; j < (at.radius > 0 ? kAround : 1); ++j)
+      faces.points.push_back(around(at.radius, at.y, j));
   }
   const auto corner = [&](std::size_t ring, std::uint32_t j, double s) {
-    const std::uint32_t step = outline[ring].radius > 0 ? j % sides : 0;
+    const std::uint32_t step = outline[ring].radius > 0 ? j % kAround : 0;
     return Corner{first[ring] + step, add_uv(faces, s, outline[ring].t)};
   };
   for (std::size_t i = 0; i + 1 < outline.size(); ++i) {
-    for (std::uint32_t j = 0; j < sides; ++j) {
-      const double s = double(j) / sides, next = double(j + 1) / sides;
+    for (std::uint32_t j = 0; j < kAround; ++j) {
+      const double s = double(j) / kAround, next = double(j + 1) / kAround;
       std::vector<Corner> face;
       if (outline[i].radius > 0) {
         face = {corner(i, j, s), corner(i, j + 1, next)};
@@ -67,8 +65,8 @@ void turn_outline(std::span<const OutlinePoint> outline, std::uint32_t sides, Fa
 /// A disc that looks up or down, with a circle of the image.
 void add_disc(double radius, double y, bool up, Faces& faces) {
   std::vector<Corner> face;
-  for (std::uint32_t j = 0; j < kAroundAxis; ++j) {
-    const Vec3 p = around(1, 0, j, kAroundAxis);
+  for (std::uint32_t j = 0; j < kAround; ++j) {
+    const Vec3 p = around(1, 0, j);
     faces.points.emplace_back(radius * p.x(), y, radius * p.z());
     face.push_back({static_cast<std::uint32_t>(faces.points.size() - 1),
                     add_uv(faces, 0.5 + 0.5 * p.x(), 0.5 + (up ? -0.5 : 0.5) * p.z())});
@@ -183,15 +181,14 @@ Faces faces_of_sphere(const x3d::NodeFields& sphere) {
     const bool pole = i == 0 || i == kUp;
     outline.push_back({pole ? 0 : radius * std::sin(kPi * t), -radius * std::cos(kPi * t), t});
   }
-  turn_outline(outline, kAroundSphere, faces);
+  turn_outline(outline, faces);
   return faces;
 }
 
 Faces faces_of_cone(const x3d::NodeFields& cone) {
   Faces faces = round_faces(cone);
   const double radius = cone.number("bottomRadius"), half = cone.number("height") / 2;
-  if (cone.boolean("side"))
-    turn_outline(std::array{OutlinePoint{radius, -half, 0}, OutlinePoint{0, half, 1}}, kAroundAxis, faces);
+  if (cone.boolean("side")) turn_outline(std::array{OutlinePoint{radius, -half, 0}, OutlinePoint{0, half, 1}}, faces);
   if (cone.boolean("bottom")) add_disc(radius, -half, false, faces);
   return faces;
 }
@@ -200,7 +197,7 @@ Faces faces_of_cylinder(const x3d::NodeFields& cylinder) {
   Faces faces = round_faces(cylinder);
   const double radius = cylinder.number("radius"), half = cylinder.number("height") / 2;
   if (cylinder.boolean("side"))
-    turn_outline(std::array{OutlinePoint{radius, -half, 0}, OutlinePoint{radius, half, 1}}, kAroundAxis, faces);
+    turn_outline(std::array{OutlinePoint{radius, -half, 0}, OutlinePoint{radius, half, 1}}, faces);
   if (cylinder.boolean("top")) add_disc(radius, half, true, faces);
   if (cylinder.boolean("bottom")) add_disc(radius, -half, false, faces);
   return faces;

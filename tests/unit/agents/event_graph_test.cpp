@@ -207,9 +207,12 @@ TEST(Routes, OrderMakesNoDifferenceWhereTheyOnlyBranch) {
 }
 
 TEST(Routes, InACircleEndInEachTick) {
-  X3dStage stage("<BooleanFilter DEF='A'/><BooleanFilter DEF='B'/><ProximitySensor DEF='NEAR' size='1 1 1'/>" +
-                 route("NEAR.isActive", "A.set_boolean") + route("A.inputNegate", "B.set_boolean") +
-                 route("B.inputNegate", "A.set_boolean") + route("A.inputNegate", "A.set_boolean"));
+  X3dStage stage(
+      "<BooleanFilter DEF='A'/><BooleanFilter DEF='B'/><ProximitySensor DEF='NEAR' size='1 1 1'/><BooleanToggle "
+      "DEF='END'/>" +
+      route("B.inputNegate", "END.set_boolean") + route("NEAR.isActive", "A.set_boolean") +
+      route("A.inputNegate", "B.set_boolean") + route("B.inputNegate", "A.set_boolean") +
+      route("A.inputNegate", "A.set_boolean"));
   stage.put_hand(Vec3::Zero());
   stage.tick();
   EXPECT_EQ(stage.value("A.set_boolean"), 1) << "the first event in a tick counts";
@@ -268,11 +271,13 @@ TEST(CollisionSensor, TellsWhetherItsBodiesTouch) {
 
 TEST(DrivenBodies, GoWhereEventsPutThemAndTellOfIt) {
   X3dStage stage("<RigidBodyCollection>" + ball("STAGE", "fixed='true' mass='0'") + ball("FREE", "") +
-                 "</RigidBodyCollection><TimeSensor DEF='T' loop='true' cycleInterval='2'/><PositionInterpolator "
+                 "</RigidBodyCollection><PositionDamper DEF='AGAIN' order='0'/><TimeSensor DEF='T' loop='true' "
+                 "cycleInterval='2'/><PositionInterpolator "
                  "DEF='P' key='0 1' keyValue='0 0 0 4 0 0'/><Transform translation='0 1 0'>" +
                  kMover + "</Transform>" + route("T.fraction_changed", "P.set_fraction") +
                  route("P.value_changed", "STAGE.set_position") + route("P.value_changed", "FREE.position") +
-                 route("STAGE.position_changed", "MOVER.translation"));
+                 route("STAGE.position_changed", "AGAIN.set_destination") +
+                 route("AGAIN.value_changed", "MOVER.translation"));
   const BodyId body = stage.description.find_body("STAGE");
   EXPECT_TRUE(stage.description.bodies[body.index()].driven && !stage.state[body].movable);
   stage.run_to(0.5);

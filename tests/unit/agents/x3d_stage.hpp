@@ -54,7 +54,11 @@ struct X3dStage {
     if (slot == nullptr) throw std::runtime_error("nothing is called " + name);
     return state.memory[slot->index];
   }
-  [[nodiscard]] const Pose& pose(const std::string& body) const { return state[description.find_body(body)].X_WB; }
+  [[nodiscard]] const Pose& pose(const std::string& name) const {
+    const BodyId body = description.find_body(name);
+    if (!body) throw std::runtime_error("no body is called " + name);
+    return state[body].X_WB;
+  }
   void put_hand(const Vec3& p_WH) {
     state.users[0].present = true;
     state.users[0].X_WH.p = p_WH;

@@ -49,12 +49,12 @@ TEST_F(ShapeTreeOf, ABodyHasItsGeometryAndOneTransformForAPicture) {
   EXPECT_THAT(tree.bodies(), ElementsAre(def("BALL")));
   EXPECT_EQ(tree.picture_of(def("BALL")), def("T"));
   EXPECT_FALSE(tree.picture_of(def("GHOST")));
-  EXPECT_THAT(names_of(tree.children(document_->scene())), ElementsAre("U"));
-  EXPECT_TRUE(tree.has_scenery());
+  EXPECT_THAT(tree.driven(), ElementsAre(def("U"))) << "the picture of none, moved by events";
+  EXPECT_FALSE(tree.has_scenery());
   std::size_t routes = 0;
   for (const NodeId route : document_->elements("ROUTE"))
     routes += tree.used().contains(route) ? 1 : 0;
-  EXPECT_EQ(routes, 2U);  // of position and orientation, to T
+  EXPECT_EQ(routes, 4U);  // all but that of the mass
 }
 
 TEST_F(ShapeTreeOf, WhatIsOffHiddenOrUnknownIsNotDrawn) {
