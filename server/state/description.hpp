@@ -39,7 +39,7 @@ struct MeshReference {
 };
 
 struct BodyDescription {
-  std::string name;    ///< DEF of the RigidBody
+  std::string name;     ///< DEF of the RigidBody
   bool fixed = false;   ///< never moves; mass is not used
   bool driven = false;  ///< events alone move it, until a step makes it movable
   bool use_gravity = true;
