@@ -12,7 +12,7 @@
 
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/spare_memory.hpp"
-#include "server/base/command_line.hpp"
+#include "server/log/command_line.hpp"
 #include "server/log/log.hpp"
 
 namespace {

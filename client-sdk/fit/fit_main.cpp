@@ -13,7 +13,7 @@
 #include "client-sdk/fit/interruption.hpp"
 #include "client-sdk/fit/progress.hpp"
 #include "client-sdk/fit/table.hpp"
-#include "server/base/command_line.hpp"
+#include "server/log/command_line.hpp"
 
 namespace {
 

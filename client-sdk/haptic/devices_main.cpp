@@ -13,7 +13,7 @@
 #include "client-sdk/haptic/driver_host.hpp"
 #include "client-sdk/haptic/virtual_hand.hpp"
 #include "client-sdk/haptic/wall_test.hpp"
-#include "server/base/command_line.hpp"
+#include "server/log/command_line.hpp"
 #include "server/log/log.hpp"
 #include "server/log/printable.hpp"
 #include "server/realtime/quantiles_json.hpp"

@@ -10,8 +10,8 @@
 
 #include "client-sdk/haptic/driver.hpp"
 #include "client-sdk/visitor/visit_tour.hpp"
-#include "server/base/command_line.hpp"
 #include "server/base/whole_file.hpp"
+#include "server/log/command_line.hpp"
 #include "server/log/log.hpp"
 
 namespace {

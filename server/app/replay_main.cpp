@@ -8,7 +8,7 @@
 #include "server/app/replay.hpp"
 #include "server/app/scenario_store.hpp"
 #include "server/app/version.hpp"
-#include "server/base/command_line.hpp"
+#include "server/log/command_line.hpp"
 #include "server/log/log.hpp"
 
 namespace {

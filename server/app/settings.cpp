@@ -7,7 +7,7 @@
 #include <toml++/toml.h>
 
 #include "server/app/version.hpp"
-#include "server/base/command_line.hpp"
+#include "server/log/command_line.hpp"
 #include <mechane/proto/names.hpp>
 
 namespace mechane::app {

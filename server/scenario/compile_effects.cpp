@@ -143,16 +143,27 @@ state::EffectDescription read_effect(Compilation& c, const x3d::Metadata& set) {
   return effect;
 }
 
-/// Before and above what can move, or all where nothing can, so that it fills half the picture; none without shapes.
-std::optional<state::Viewpoint> view_of_all(std::span<const state::BodyDescription> bodies) {
+void extend(Eigen::AlignedBox3d& box, const Vec3& center, double radius) {
+  box.extend(Vec3(center.array() - radius)).extend(Vec3(center.array() + radius));
+}
+
+/// Before and above what can move, and where it swings, or all where nothing can, so that it fills half the picture; none without shapes.
+std::optional<state::Viewpoint> view_of_all(const state::WorldDescription& world) {
   constexpr double kLeastRadius_m = 0.3;
+  const auto& bodies = world.bodies;
   const bool any_moves = std::any_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.object && !b.fixed; });
   Eigen::AlignedBox3d box;
   for (const state::BodyDescription& body : bodies) {
     if (!body.object || (any_moves && body.fixed)) continue;
     const geometry::Sphere& bound_B = body.object->bound_O;
-    const Vec3 center_W = body.X_WB * bound_B.center;
-    box.extend(Vec3(center_W.array() - bound_B.radius)).extend(Vec3(center_W.array() + bound_B.radius));
+    extend(box, body.X_WB * bound_B.center, bound_B.radius);
+  }
+  for (const state::JointDescription& joint : world.joints) {
+    const state::BodyDescription& body = bodies[joint.body2.index()];
+    const bool hangs = !joint.body1 || bodies[joint.body1.index()].fixed;
+    if (!hangs || !body.object || joint.kind == state::JointKind::slider) continue;
+    const geometry::Sphere& bound_B = body.object->bound_O;
+    extend(box, body.X_WB * joint.X_B2J.p, (bound_B.center - joint.X_B2J.p).norm() + bound_B.radius);
   }
   if (box.isEmpty()) return std::nullopt;
   state::Viewpoint view;
@@ -193,7 +204,7 @@ void compile_viewpoints(Compilation& c) {
     c.world.viewpoints.push_back(std::move(viewpoint));
   }
   if (!c.world.viewpoints.empty()) return;
-  if (auto view = view_of_all(c.world.bodies)) c.world.viewpoints.push_back(std::move(*view));
+  if (auto view = view_of_all(c.world)) c.world.viewpoints.push_back(std::move(*view));
 }
 
 }  // namespace mechane::scenario

@@ -70,15 +70,16 @@ struct Drawn {
 
   /// How much the row's value lacks of its target at velocities after the step.
   double missing(std::size_t index) {
-    const auto& [row, body1, body2] = rows[index];
+    const auto& at = rows[index];
+    const Row& row = at.row;  // Clang's lambdas take no structured bindings
     double value = row.softness * mechanism.impulse_of(index);
     const auto add = [&](std::size_t body, double sign, const Vec3& arm) {
       if (body == kGround) return;
       value +=
           sign * (row.n_W.dot(V[body].v + mechanism.change(body).v) + arm.dot(V[body].w + mechanism.change(body).w));
     };
-    add(body2, 1, row.a2_W);
-    add(body1, -1, row.a1_W);
+    add(at.body2, 1, row.a2_W);
+    add(at.body1, -1, row.a1_W);
     return row.target - value;
   }
 };

@@ -173,6 +173,18 @@ TEST(PlainX3dWorld, WithoutAViewpointOneSeesWhatCanMove) {
   EXPECT_LT(widest, 0.7);
 }
 
+TEST(PlainX3dWorld, WithoutAViewpointOneSeesWhereThingsSwing) {
+  const PlainWorld world("<RigidBodyCollection>" + box_body("BOB", "position='1 0 0'", kBox) +
+                         "<BallJoint containerField='joints'><RigidBody USE='BOB' containerField='body1'/></BallJoint>"
+                         "</RigidBodyCollection>");
+  const state::Viewpoint& view = world.description().viewpoints.at(0);
+  for (const Vec3& p_W : {Vec3(0, -1, 0), Vec3(-1, 0, 0)}) {
+    const Vec3 p_V = view.X_WV.inverse() * p_W;
+    const double edge = -p_V.z() * std::tan(view.field_of_view_rad / 2);
+    EXPECT_LT(p_V.head<2>().norm(), 0.8 * edge);
+  }
+}
+
 TEST(PlainX3dWorld, ThingsRestOnEachOtherAndWheelsRoll) {
   std::string car = box_body("GROUND", "fixed='true' position='0 -0.5 0'", "<Box size='8 1 40'/>") +
                     box_body("BLOCK", "position='3 0.5 0'", "<Box size='0.4 0.4 0.4'/>") +

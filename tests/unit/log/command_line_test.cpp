@@ -1,4 +1,4 @@
-#include "server/base/command_line.hpp"
+#include "server/log/command_line.hpp"
 
 #include <string>
 #include <vector>
