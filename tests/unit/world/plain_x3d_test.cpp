@@ -10,6 +10,7 @@
 #include "server/scenario/compiler.hpp"
 #include "server/world/step.hpp"
 #include "tests/support/crank_world.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_files.hpp"
 
@@ -186,6 +187,7 @@ TEST(PlainX3dWorld, WithoutAViewpointOneSeesWhereThingsSwing) {
 }
 
 TEST(PlainX3dWorld, ThingsRestOnEachOtherAndWheelsRoll) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it builds many shapes; shorter tests go the same ways");
   std::string car = box_body("GROUND", "fixed='true' position='0 -0.5 0'", "<Box size='8 1 40'/>") +
                     box_body("BLOCK", "position='3 0.5 0'", "<Box size='0.4 0.4 0.4'/>") +
                     box_body("CHASSIS", "mass='5' position='0 0.5 0'", "<Box size='1 0.4 2'/>");
@@ -257,6 +259,7 @@ std::filesystem::path shared_file(const std::string& name) {
 
 // Each is simulated for 10 s, and where its closed form ends, to there. The tests above have twins of all, which need no file.
 TEST(PlainX3dWorld, TheSharedFilesMoveAsTheyShould) {
+  MECHANE_NOT_UNDER_ADDRESS_SANITIZER("it builds many shapes; shorter tests go the same ways");
   if (!std::filesystem::exists(shared_file(""))) GTEST_SKIP() << "no sample files beside the project";
   PlainWorld fall(shared_file("sim-physics.x3d"));
   fall.run(10);
