@@ -23,7 +23,8 @@ namespace mechane::agents {
 ///
 /// Quantities are read at the end of run(), so a machine's values are those of the tick before. Sources: "<AGENT or
 /// MACHINE>.<value>" as their types offer them; "<JOINT>.position" (rad or m), ".angle" (rad), ".rate" (rad/s or m/s), ".turns";
-/// "<BODY>.position.x" (y, z; m); "<NODE>.<field>" of X3D's nodes that send events, of a vector with .x, .y or .z. The unit "rpm" of a `.rate` and "deg" of an `.angle` convert; other units are only shown.
+/// "<BODY>.position.x" (y, z; m); "<NODE>.<field>" of X3D's nodes that send events, of a vector with .x, .y or .z. The unit "rpm" of a
+/// `.rate` and "deg" of an `.angle` convert; other units are only shown.
 class AgentSet {
  public:
   /// Takes memory slots. Make the machines first: quantities may read what they offer, and restarting an activity resets every
@@ -40,9 +41,9 @@ class AgentSet {
   /// Not in the tick; before DynamicsWorld::create.
   void start(state::WorldState& state) const noexcept;
 
-  /// One tick: commands, X3D's own events, agents that switch others (breakable, assembled, fired), the other agents in the order of the description,
-  /// `touched` events, quantities, triggers. Reads contacts, samples and poses; writes grasps, joints, body flags, surfaces, progress,
-  /// quantities, events. Allocates nothing. Any thread, but one at a time for a state.
+  /// One tick: commands, X3D's own events, agents that switch others (breakable, assembled, fired), the other agents in the order of the
+  /// description, `touched` events, quantities, triggers. Reads contacts, samples and poses; writes grasps, joints, body flags, surfaces,
+  /// progress, quantities, events. Allocates nothing. Any thread, but one at a time for a state.
   void run(state::WorldState& state, std::span<const state::Command> commands, double dt_s) const noexcept;
 
  private:

@@ -1,5 +1,5 @@
-// How long things take to be built for touch: each exhibit as a server's first start builds it, and a closed and a scanned ball of ever more
-// triangles.
+// How long things take to be built for touch: each exhibit as a server's first start builds it, and a closed and a scanned ball of ever
+// more triangles.
 #include <array>
 #include <chrono>
 #include <cmath>
