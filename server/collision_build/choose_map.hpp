@@ -50,8 +50,8 @@ struct MapCandidates {
   std::size_t at_most = 128U << 10;  ///< bytes
   std::span<const Probe> must = {};  ///< points none of which may be missed or wrong, besides the budget
   double but_for = 0;                ///< except for this share of them
-  const MapFrame* brick_frame =
-      nullptr;  ///< of bricks, where another one than that of radial maps is tighter; has their X_OQ
+  /// Of bricks, where it is tighter than that of radial maps, whose X_OQ it shares; null: the same.
+  const MapFrame* brick_frame = nullptr;
   const geometry::Mesh* field_of = nullptr;  ///< the skin's mesh: a DistanceField of it comes before the others
 };
 

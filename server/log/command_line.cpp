@@ -23,7 +23,7 @@ const CLI::App& given_command(const CLI::App& app, std::string& words) {
   return *command;
 }
 
-/// The first word that nothing takes, without its value; an option before other words, which may be its values.
+/// The first unexpected word, without its value; an option before other words, which may be its values.
 std::string unknown_word(const CLI::App& app) {
   const std::vector<std::string> left = app.remaining(true);
   const auto option = std::ranges::find_if(left, [](const std::string& word) { return word.starts_with('-'); });
@@ -48,7 +48,7 @@ Error command_line_error(const CLI::App& app, const CLI::ParseError& fault) {
   for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
     if (!is_option) known.push_back(below->get_name());
   const std::string near = nearest(word, known);
-  error.what = is_option ? "there is no option '" + word + "'" : "nothing takes the word '" + word + "'";
+  error.what = is_option ? "there is no option '" + word + "'" : "unexpected word '" + word + "'";
   if (!near.empty()) error.remedy = "did you mean '" + near + "'? (" + words + " --help lists them)";
   return error;
 }

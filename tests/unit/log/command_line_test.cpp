@@ -37,10 +37,9 @@ TEST(CommandLine, NamesWhatIsWrongAndTheOptionThatIsNear) {
   EXPECT_EQ(
       told_of({"show", "7", "--jsn"}).text,
       "mechane try show: there is no option '--jsn'; did you mean '--json'? (mechane try show --help lists them)\n");
-  EXPECT_EQ(told_of({"show", "7", "8"}).text,
-            "mechane try show: nothing takes the word '8'; see mechane try show --help\n");
+  EXPECT_EQ(told_of({"show", "7", "8"}).text, "mechane try show: unexpected word '8'; see mechane try show --help\n");
   EXPECT_EQ(told_of({"shw"}).text,
-            "mechane try: nothing takes the word 'shw'; did you mean 'show'? (mechane try --help lists them)\n");
+            "mechane try: unexpected word 'shw'; did you mean 'show'? (mechane try --help lists them)\n");
   EXPECT_EQ(told_of({"show"}).text, "mechane try show: visit is required; see mechane try show --help\n");
   EXPECT_NE(told_of({"--port", "10"}).text.find("mechane try: --port: Value 10 not in range"), std::string::npos);
   EXPECT_EQ(told_of({"--port", "10"}).status, 2);

@@ -49,7 +49,7 @@ TEST_F(ShapeTreeOf, ABodyHasItsGeometryAndOneTransformForAPicture) {
   EXPECT_THAT(tree.bodies(), ElementsAre(def("BALL")));
   EXPECT_EQ(tree.picture_of(def("BALL")), def("T"));
   EXPECT_FALSE(tree.picture_of(def("GHOST")));
-  EXPECT_THAT(tree.driven(), ElementsAre(def("U"))) << "the picture of none, moved by events";
+  EXPECT_THAT(tree.driven(), ElementsAre(def("U"))) << "no body moves it, but events do";
   EXPECT_FALSE(tree.has_scenery());
   std::size_t routes = 0;
   for (const NodeId route : document_->elements("ROUTE"))
