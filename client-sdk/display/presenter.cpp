@@ -49,11 +49,24 @@ bool Presenter::shows_live_world() const {
   return news_.live() && visitor_.invitation() == nullptr;
 }
 
-void Presenter::place_camera(picture::RenderScene& scene) const {
-  if (!options_.screen.known()) scene.camera.room_below = caption_room_.room_below();  // from the last picture
+/// Not for a picture in true proportions, whose view must stay like a window's.
+void Presenter::follow_work(const picture::RenderScene& scene, TimePoint now) {
   const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
-  if (eye.width > 0 && eye.height > 0)
-    scene.camera = picture::for_screen(scene.camera, options_.screen, news_.head(), picture::aspect_of(eye));
+  if (options_.screen.known() || eye.width == 0 || eye.height == 0) return;
+  if (visitor_.drags()) return step_view_.hold(now);
+  step_view_.follow(scene.work_W, scene.camera, picture::aspect_of(eye), now);
+}
+
+/// As of the last call of follow_work() and make_room().
+void Presenter::place_camera(picture::RenderScene& scene) const {
+  const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
+  if (eye.width == 0 || eye.height == 0) return;
+  const double aspect = picture::aspect_of(eye);
+  if (!options_.screen.known()) {
+    scene.camera = step_view_.shown(scene.camera, aspect);
+    scene.camera.room_below = caption_room_.room_below();
+  }
+  scene.camera = picture::for_screen(scene.camera, options_.screen, news_.head(), aspect);
 }
 
 picture::RenderScene Presenter::world_scene() const {
@@ -62,13 +75,15 @@ picture::RenderScene Presenter::world_scene() const {
   return scene;
 }
 
-picture::RenderScene Presenter::compose(TimePoint now) const {
-  if (AttractLoop* invitation = visitor_.invitation()) {
-    picture::RenderScene scene = invitation->build(now, visitor_.language(), visitor_.style());
-    place_camera(scene);
-    return scene;
-  }
-  picture::RenderScene scene = world_scene();
+picture::RenderScene Presenter::compose(TimePoint now) {
+  AttractLoop* invitation = visitor_.invitation();
+  picture::RenderScene scene = invitation ? invitation->build(now, visitor_.language(), visitor_.style())
+                                          : news_.world().build(news_.frame(), news_.client().state());
+  follow_work(scene, now);
+  if (step_view_.is_narrow() && !scene.inset && invitation == nullptr)
+    scene.inset = picture::Inset{scene.camera, visitor_.language() == "el" ? "Ολόκληρη η μηχανή" : "The whole machine"};
+  place_camera(scene);
+  if (invitation != nullptr) return scene;
   if (shows_live_world()) scene.overlay.pose = news_.calibration().at(now, visitor_.language());
   visitor_.write(scene, last_picture(), now);
   name_what_is_meant(scene);

@@ -14,6 +14,7 @@
 #include "client-sdk/display/soundtrack.hpp"
 #include "client-sdk/display/visitor.hpp"
 #include "client-sdk/display/window.hpp"
+#include "client-sdk/scene/step_view.hpp"
 #include "server/base/clock.hpp"
 
 namespace mechane::display {
@@ -45,8 +46,9 @@ class Presenter {
   [[nodiscard]] Soundtrack& soundtrack() { return soundtrack_; }
 
  private:
+  void follow_work(const picture::RenderScene& scene, TimePoint now);
   void place_camera(picture::RenderScene& scene) const;
-  [[nodiscard]] picture::RenderScene compose(TimePoint now) const;
+  [[nodiscard]] picture::RenderScene compose(TimePoint now);
   void name_what_is_meant(picture::RenderScene& scene) const;
   void make_room(picture::RenderScene& scene, TimePoint now);
   void hear(const picture::Camera& ears, TimePoint now);
@@ -65,6 +67,7 @@ class Presenter {
   SystemClock clock_;
   Soundtrack soundtrack_;
   CaptionRoom caption_room_;
+  scene::StepView step_view_;
   bool panel_shown_ = false;  ///< in the last picture
   std::string told_draw_;
   std::uint64_t frames_ = 0;

@@ -112,12 +112,40 @@ double nearest_of(const Eigen::AlignedBox3d& box_W, const Camera& camera) {
   if (box_W.isEmpty()) return 0;
   const Vec3 ahead_W = (camera.p_WT - camera.p_WC).normalized();
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const auto corner :
-       {Eigen::AlignedBox3d::BottomLeftFloor, Eigen::AlignedBox3d::BottomRightFloor, Eigen::AlignedBox3d::TopLeftFloor,
-        Eigen::AlignedBox3d::TopRightFloor, Eigen::AlignedBox3d::BottomLeftCeil, Eigen::AlignedBox3d::BottomRightCeil,
-        Eigen::AlignedBox3d::TopLeftCeil, Eigen::AlignedBox3d::TopRightCeil})
-    nearest_m = std::min(nearest_m, ahead_W.dot(box_W.corner(corner) - camera.p_WC));
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p_W = box_W.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    nearest_m = std::min(nearest_m, ahead_W.dot(p_W - camera.p_WC));
+  }
   return std::max(nearest_m, kArm_m);
+}
+
+ViewWindow whole_window(const Camera& camera, double aspect) {
+  return {0, 0, window_of(camera, aspect).half_tan};
+}
+
+Eigen::AlignedBox2d seen_box(const Camera& camera, const Eigen::AlignedBox3d& box_W) {
+  Eigen::AlignedBox2d seen;
+  if (box_W.isEmpty()) return seen;
+  const Mat3 R_CW = axes_of(camera);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p_C = R_CW * (box_W.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - camera.p_WC);
+    if (-p_C.z() < camera.near_m) return {};
+    seen.extend(Eigen::Vector2d(p_C.head<2>() / -p_C.z()));
+  }
+  return seen;
+}
+
+Camera narrowed_to(const Camera& camera, const ViewWindow& window, double aspect, double depth_m) {
+  const Vec3 middle_C(window.x, window.y, -1);
+  const double half_tan = window.half_height / middle_C.norm();
+  Camera out = camera;
+  out.p_WT = camera.p_WC + depth_m * axes_of(camera).transpose() * middle_C;
+  out.field_of_view_rad = 2 * std::atan(half_tan);
+  // As much less across as the window is narrower.
+  const double share = window.half_height / whole_window(camera, aspect).half_height;
+  out.least_horizontal_rad = 2 * std::atan(share * std::tan(camera.least_horizontal_rad / 2) / middle_C.norm());
+  out.screen_distance_m = 0;
+  return out;
 }
 
 Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad) {

@@ -75,6 +75,20 @@ inline constexpr double kMostParallaxBefore = 0.03;
 /// The value of Camera::nearest_m where visitors look at what is in the box; 0 for an empty box.
 [[nodiscard]] double nearest_of(const Eigen::AlignedBox3d& box_W, const Camera& camera);
 
+/// A part of what a camera shows, in the plane one metre in front of it: x to the right, y up, from the axis.
+struct ViewWindow {
+  double x = 0;
+  double y = 0;
+  double half_height = 0;
+};
+/// All that a picture of this aspect shows, without Camera::room_below.
+[[nodiscard]] ViewWindow whole_window(const Camera& camera, double aspect);
+/// Where a box appears in that plane. Empty: the box is empty, or some of it is behind the camera.
+[[nodiscard]] Eigen::AlignedBox2d seen_box(const Camera& camera, const Eigen::AlignedBox3d& box_W);
+/// The camera in the same place, turned and narrowed to this window of it. What is `depth_m` along the old axis lies in
+/// the screen's plane.
+[[nodiscard]] Camera narrowed_to(const Camera& camera, const ViewWindow& window, double aspect, double depth_m);
+
 /// A camera that sees the whole box from `from_W` (a direction, from the box's middle towards the camera), with a
 /// little room below for captions.
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double field_of_view_rad);

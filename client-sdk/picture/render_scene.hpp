@@ -49,6 +49,7 @@ struct RenderScene {
   Eigen::AlignedBox3f shadow_box_W;       ///< contains all that casts shadows
   Eigen::AlignedBox3f focus_box_W;        ///< where shadows are sharpest; empty: everywhere equally sharp
   Camera camera;
+  Eigen::AlignedBox3d work_W;  ///< where hands work in this step; empty: nowhere
   Sun sun;
   bool sky = true;                             ///< false: a black sky, and only the sun's light
   std::optional<float> ground_height_m;        ///< an endless plain of dry earth at this height

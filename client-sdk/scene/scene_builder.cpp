@@ -8,6 +8,7 @@
 #include "client-sdk/scene/effect_builder.hpp"
 #include "client-sdk/scene/river_reach.hpp"
 #include "client-sdk/scene/thing_names.hpp"
+#include "client-sdk/scene/workplace.hpp"
 
 namespace mechane::scene {
 namespace {
@@ -28,6 +29,9 @@ constexpr float kSharpReach_m = 2.5F;
 /// A thing farther away than any place is large has left its world, or was never in it: it is not drawn and does not
 /// count in any box.
 constexpr double kStray_m = 10'000;
+
+/// From the middle of a finger's segment to what is still of the hand.
+constexpr double kFinger_m = 0.015;
 
 bool is_stray(const Vec3& p_W) {
   return !(p_W.array().abs() <= kStray_m).all();  // true for NaN, too
@@ -332,12 +336,7 @@ void SceneBuilder::add_name(const Placed& placed, const Pose& X_WB, picture::Ren
 void SceneBuilder::add_what_moves(const client::Frame& frame, const client::WorldStatus* status,
                                   picture::RenderScene& out) {
   out.time_s = static_cast<double>(frame.tick % 3'600'000) * kTickSeconds;
-  for (const client::HandPose& hand : frame.hands) {
-    if (is_stray(hand)) continue;
-    hand_.draw(hand, camera_, out);
-    if (forces_shown_) arrow_.draw(hand, camera_, out);
-  }
-  out.near_hand = named_near(out.named, frame.hands);
+  add_hands(frame, status, out);
   for (const client::RopeShape& rope : frame.ropes) {
     if (std::ranges::any_of(rope.points_W, [](const Vec3& p_W) { return is_stray(p_W); })) continue;
     picture::RenderRope& drawn = out.ropes.emplace_back();
@@ -362,6 +361,31 @@ void SceneBuilder::add_what_moves(const client::Frame& frame, const client::Worl
     return is_stray(stream.p_WS.cast<double>()) || !stream.v_W.allFinite() || !std::isfinite(stream.width_m);
   });
   std::erase_if(out.effects, [](const picture::ParticleEffect& effect) { return is_stray(effect.p_W.cast<double>()); });
+}
+
+void SceneBuilder::add_hands(const client::Frame& frame, const client::WorldStatus* status,
+                             picture::RenderScene& out) const {
+  std::vector<WorkingHand> hands;
+  for (const client::HandPose& hand : frame.hands) {
+    if (is_stray(hand)) continue;
+    const std::size_t before = out.occluders.size();
+    hand_.draw(hand, camera_, out);
+    if (forces_shown_) arrow_.draw(hand, camera_, out);
+    if (hand.stale) continue;
+    WorkingHand& working = hands.emplace_back(Eigen::AlignedBox3d(), hand.holding);
+    for (const picture::Occluder& segment : std::span(out.occluders).subspan(before)) {
+      const Vec3 p_W = segment.p_WO.cast<double>();
+      working.box_W.extend(Eigen::AlignedBox3d(p_W - Vec3::Constant(kFinger_m), p_W + Vec3::Constant(kFinger_m)));
+    }
+  }
+  out.near_hand = named_near(out.named, frame.hands);
+  if (presentation_ == nullptr || status == nullptr || status->done) return;
+  const auto standing = [&](std::uint32_t object) {
+    const auto placed = std::ranges::find(objects_, std::optional(object), &Placed::index);
+    if (placed == objects_.end()) return StandingObject{};
+    return StandingObject{pose_of(*placed, &frame), placed->model->box_B.cast<double>()};
+  };
+  out.work_W = workplace(hands, presentation_->affordances, status->enabled_agents, standing);
 }
 
 std::optional<picture::Inset> SceneBuilder::detail(const client::WorldStatus& status) const {

@@ -67,6 +67,7 @@ class SceneBuilder {
   void add_object(const Placed& placed, const Pose& X_WB, const client::Frame* frame, picture::RenderScene& out) const;
   void add_name(const Placed& placed, const Pose& X_WB, picture::RenderScene& out) const;
   void add_what_moves(const client::Frame& frame, const client::WorldStatus* status, picture::RenderScene& out);
+  void add_hands(const client::Frame& frame, const client::WorldStatus* status, picture::RenderScene& out) const;
 
   AssetLibrary& library_;
   HandModel hand_;

@@ -26,8 +26,8 @@ ShownExhibit::ShownExhibit(std::filesystem::path folder, std::vector<client::Sce
   builder_.set_presentation(presentation_);
 }
 
-picture::RenderScene ShownExhibit::scene(const client::Frame& frame) {
-  return builder_.build(&frame, nullptr, client::LinkState::joined);
+picture::RenderScene ShownExhibit::scene(const client::Frame& frame, const client::WorldStatus* status) {
+  return builder_.build(&frame, status, client::LinkState::joined);
 }
 
 }  // namespace mechane::visitor

@@ -18,7 +18,8 @@ class ShownExhibit {
   ShownExhibit(const ShownExhibit&) = delete;
   ShownExhibit& operator=(const ShownExhibit&) = delete;
 
-  [[nodiscard]] picture::RenderScene scene(const client::Frame& frame);
+  /// `status` may be null: then there are no words, and no place of work.
+  [[nodiscard]] picture::RenderScene scene(const client::Frame& frame, const client::WorldStatus* status = nullptr);
   [[nodiscard]] const picture::SceneAssets& assets() const { return library_.assets(); }
   [[nodiscard]] const std::vector<client::SceneObject>& objects() const { return objects_; }
   [[nodiscard]] const client::WorldPresentation& presentation() const { return *presentation_; }

@@ -79,19 +79,9 @@ class PointerPerson final : public Person {
   void see(const state::WorldState& state) override {
     holding_ = state.users[0].output.holding;
     if (ticks_ % PointerPlayer::kTicksPerPicture != 1) return;
-    frame_.tick = state.tick;
-    frame_.bodies.clear();
-    frame_.visible.clear();
-    for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    show(state, description_, frame_, status_);
+    for (std::size_t i = 0; i < state.bodies.size(); ++i)
       X_WB_[i] = state.bodies[i].X_WB;
-      frame_.visible.push_back(state.bodies[i].visible ? 1 : 0);
-      if (!description_.bodies[i].fixed) frame_.bodies.push_back({static_cast<std::uint32_t>(i), X_WB_[i]});
-    }
-    frame_.quantities = state.quantities;
-    status_.enabled_agents.clear();
-    for (std::size_t i = 0; i < state.agent_enabled.size(); ++i) {
-      if (state.agent_enabled[i] != 0) status_.enabled_agents.push_back(description_.agents[i].name);
-    }
   }
 
   [[nodiscard]] bool finished() const override { return player_.finished(); }
@@ -133,6 +123,32 @@ class PointerPerson final : public Person {
 std::unique_ptr<visitor::ShownExhibit> show_exhibit(const state::WorldDescription& description) {
   return std::make_unique<visitor::ShownExhibit>(description.folder, objects_of(description),
                                                  presentation_of(description));
+}
+
+void show(const state::WorldState& state, const state::WorldDescription& description, client::Frame& frame,
+          client::WorldStatus& status) {
+  frame.tick = state.tick;
+  frame.bodies.clear();
+  frame.visible.clear();
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    frame.visible.push_back(state.bodies[i].visible ? 1 : 0);
+    if (!description.bodies[i].fixed) frame.bodies.push_back({static_cast<std::uint32_t>(i), state.bodies[i].X_WB});
+  }
+  frame.quantities = state.quantities;
+  frame.hands.clear();
+  for (const state::UserState& user : state.users) {
+    if (!user.present) continue;
+    client::HandPose& hand = frame.hands.emplace_back();
+    hand.kind = user.sample.kind;
+    hand.stale = user.stale;
+    hand.X_WS = user.X_WS;
+    hand.holding = user.output.holding;
+  }
+  status.enabled_agents.clear();
+  for (std::size_t i = 0; i < state.agent_enabled.size(); ++i) {
+    if (state.agent_enabled[i] != 0) status.enabled_agents.push_back(description.agents[i].name);
+  }
+  status.done = state.progress.done;
 }
 
 std::unique_ptr<Person> make_pointer_person(visitor::ShownExhibit& shown, const state::WorldDescription& description,

@@ -1,0 +1,93 @@
+#include "client-sdk/scene/step_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mechane::scene {
+namespace {
+
+// What a window must contain lies within these shares of its half height from its middle: captions cover what is below,
+// gauges and the inset what is beside it.
+constexpr double kAbove = 0.90;
+constexpr double kBelow = 0.34;
+constexpr double kAside = 0.50;  // of its half width
+// From here on it is the whole view, to the bit.
+constexpr double kWhole = 0.995;
+
+/// The value nearest to `value` for which [low, high] lies between value - below and value + above.
+double containing(double value, double low, double high, double below, double above) {
+  return std::clamp(value, std::min(high - above, low + below), std::max(high - above, low + below));
+}
+
+}  // namespace
+
+StepView::Part StepView::part_for(const picture::Camera& usual, double aspect) const {
+  Part part = wanted_;
+  const double whole = picture::whole_window(usual, aspect).half_height;
+  const double least = std::max({kLeastHalf_m / part.depth_m, worked_.sizes().y() / (kAbove + kBelow),
+                                 worked_.sizes().x() / (2 * kAside * aspect)});
+  const double half = std::min(least, whole);
+  part.share = half / whole;
+  part.x = containing(part.x, worked_.min().x(), worked_.max().x(), kAside * aspect * half, kAside * aspect * half);
+  part.y = containing(part.y, worked_.min().y(), worked_.max().y(), kBelow * half, kAbove * half);
+  // What the usual view does not show may come under captions and gauges, but not where hands work.
+  const double most_x = aspect * (whole - kAside * half);
+  part.x = std::clamp(part.x, -most_x, most_x);
+  part.y = std::clamp(part.y, kBelow * half - whole, whole - half);
+  return part;
+}
+
+/// Remembers for some seconds where hands have worked, so that the view rests while one goes round and round.
+void StepView::remember(const Eigen::AlignedBox2d& seen, double passed_s) {
+  if (worked_.isEmpty()) worked_ = seen;
+  const double s = 1 - std::exp(-passed_s / kForgets_s);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto side = [&](double& value, double& since_s, double now, bool beyond) {
+      since_s = beyond ? 0 : since_s + passed_s;
+      if (beyond) value = now;
+      if (since_s > kRemembers_s) value += s * (now - value);
+    };
+    side(worked_.min()[axis], lower_since_s_[axis], seen.min()[axis], seen.min()[axis] <= worked_.min()[axis]);
+    side(worked_.max()[axis], upper_since_s_[axis], seen.max()[axis], seen.max()[axis] >= worked_.max()[axis]);
+  }
+}
+
+void StepView::Part::approach(const Part& other, double s) {
+  x += s * (other.x - x);
+  y += s * (other.y - y);
+  share += s * (other.share - share);
+  depth_m += s * (other.depth_m - depth_m);
+}
+
+void StepView::follow(const Eigen::AlignedBox3d& work_W, const picture::Camera& usual, double aspect, TimePoint now) {
+  const bool first = !seen_ || p_WC_ != usual.p_WC;
+  const double passed_s = first ? 0 : std::max(to_seconds(now - *seen_), 0.0);
+  const double s = first ? 1 : 1 - std::exp(-passed_s / kFollows_s);
+  seen_ = now;
+  const Vec3 ahead_W = usual.p_WT - usual.p_WC;
+  if (first) {
+    wanted_ = halfway_ = shown_ = {0, 0, 1, ahead_W.norm()};
+    worked_.setEmpty();
+  }
+  p_WC_ = usual.p_WC;
+  const Eigen::AlignedBox2d seen = picture::seen_box(usual, work_W);
+  if (seen.isEmpty()) {
+    wanted_ = {0, 0, 1, wanted_.depth_m};
+    worked_ = seen;
+  } else {
+    wanted_.depth_m = ahead_W.normalized().dot(work_W.center() - usual.p_WC);
+    remember(seen, passed_s);
+    wanted_ = part_for(usual, aspect);
+  }
+  // Twice, so that it sets out gently, too.
+  halfway_.approach(wanted_, s);
+  shown_.approach(halfway_, s);
+}
+
+picture::Camera StepView::shown(const picture::Camera& usual, double aspect) const {
+  if (shown_.share >= kWhole) return usual;
+  const double half = shown_.share * picture::whole_window(usual, aspect).half_height;
+  return picture::narrowed_to(usual, {shown_.x, shown_.y, half}, aspect, shown_.depth_m);
+}
+
+}  // namespace mechane::scene
