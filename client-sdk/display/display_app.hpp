@@ -48,6 +48,7 @@ struct DisplayOptions {
   double home_after_s = 0;                     ///< go home after this time without a motion or click; 0: never
   std::string attract;                         ///< file of a recording that is shown while nobody is there; empty: none
   double attract_after_s = 120;                ///< show it after this time without a motion, touch or click
+  bool follow_step = true;                     ///< the view turns and narrows to where hands work
   bool touch = true;                           ///< in a window: mouse, fingers and keys move a hand of the kiosk
   SoundSettings sound;                         ///< for a window; offscreen there is no sound
   SourceOptions source;                        ///< what is played instead of a server's world, and recorded

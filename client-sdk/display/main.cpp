@@ -141,6 +141,8 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_flag("--until-done", o.until_done, "stop when the last activity is done");
   // As callbacks, because for a flag that sets false CLI11's help would print --no-touch{false}.
   app.add_flag_callback(
+      "--still-view", [&o] { o.follow_step = false; }, "show the usual view always, not what a step works on");
+  app.add_flag_callback(
       "--no-touch", [&o] { o.touch = false; }, "mouse, fingers and keys move no hand: they can only click on signs");
   app.add_option("--volume", o.sound.volume, "of effects and narration, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))

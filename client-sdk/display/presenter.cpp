@@ -52,7 +52,7 @@ bool Presenter::shows_live_world() const {
 /// Not for a picture in true proportions, whose view must stay like a window's.
 void Presenter::follow_work(const picture::RenderScene& scene, TimePoint now) {
   const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
-  if (options_.screen.known() || eye.width == 0 || eye.height == 0) return;
+  if (!options_.follow_step || options_.screen.known() || eye.width == 0 || eye.height == 0) return;
   if (visitor_.drags()) return step_view_.hold(now);
   step_view_.follow(scene.work_W, scene.camera, picture::aspect_of(eye), now);
 }

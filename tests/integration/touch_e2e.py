@@ -34,7 +34,7 @@ class Touch(EndToEnd):
         server = self.server(scenario=scenario_of(scenario), records=False)
         size = "x".join(map(str, SIZE))
         with self.screen(size) as environment:
-            window = self.start("window", "display", "--kiosk", "wall", "--size", size, "--mute", "--ask", "none", "--out", self.folder / "pictures",
+            window = self.start("window", "display", "--kiosk", "wall", "--size", size, "--mute", "--still-view", "--ask", "none", "--out", self.folder / "pictures",
                                 environment=environment)
             visitor = TouchVisitor(scenario_of(scenario), "wall", SIZE, environment)
             visitor.server, visitor.window = server, window
@@ -183,7 +183,7 @@ class Touch(EndToEnd):
         except NoGlass as reason:
             self.skipTest(str(reason))
         self.addCleanup(glass.stop)
-        window = self.start("window", "display", "--kiosk", "wall", "--full-screen", "--size", "320x240", "--mute", "--ask", "none",
+        window = self.start("window", "display", "--kiosk", "wall", "--full-screen", "--size", "320x240", "--mute", "--still-view", "--ask", "none",
                             environment=glass.environment)
         visitor = TouchVisitor(scenario_of("aiolos-sphere"), "wall", glass.SIZE, glass.environment)
         self.addCleanup(visitor.stop)
