@@ -19,6 +19,7 @@
 
 #include "server/base/assert.hpp"
 #include "server/dynamics/body_samples.hpp"
+#include "server/dynamics/bullet_math.hpp"
 #include "server/dynamics/pair_contacts.hpp"
 
 namespace mechane::dynamics {
@@ -33,9 +34,6 @@ constexpr double kStill_m_per_s = 2e-3;          // at the outermost point; the 
 constexpr std::size_t kMaxTouchingPerBody = 12;  // in one step; further ones are left out, in the order of the pairs
 constexpr int kShapeType = CUSTOM_CONCAVE_SHAPE_TYPE;
 
-btVector3 bullet_vector(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 Pose pose_of(const btTransform& X) {
   const btVector3& p = X.getOrigin();
   const btQuaternion q = X.getRotation();
@@ -57,7 +55,7 @@ class ObjectShape final : public btCollisionShape {
   const double restitution;
 
   void getAabb(const btTransform& X_WC, btVector3& low, btVector3& high) const override {
-    const btVector3 center = X_WC * bullet_vector(X_CB * object->bound_O.center);
+    const btVector3 center = X_WC * to_bt(X_CB * object->bound_O.center);
     const btScalar r = object->bound_O.radius;
     low = center - btVector3(r, r, r);
     high = center + btVector3(r, r, r);
@@ -88,8 +86,8 @@ double combined(double first, double second) {
 
 Vec3 velocity_at(const btCollisionObject* object, const Vec3& p_W) {
   const btRigidBody& body = *btRigidBody::upcast(object);
-  const btVector3 v = body.getVelocityInLocalPoint(bullet_vector(p_W) - body.getCenterOfMassPosition());
-  return {v.x(), v.y(), v.z()};
+  const btVector3 v = body.getVelocityInLocalPoint(to_bt(p_W) - body.getCenterOfMassPosition());
+  return from_bt(v);
 }
 
 /// The algorithm of a pair of our shapes. Its manifold is made anew in each step, because a snapshot does not hold what it would
@@ -128,9 +126,9 @@ class ObjectAlgorithm final : public btCollisionAlgorithm {
     const double most_m = kSlop_m + kMaxContactCorrection_m_per_s * dt_s / kContactErrorShare;
     // One point for both bodies, half way between the surfaces: impulses at two different points would turn the pair.
     const Vec3 p_W = contact.p_WC - 0.5 * contact.depth_m * contact.n_BA_W;
-    const btVector3 p = bullet_vector(p_W);
-    btManifoldPoint point(a.getWorldTransform().invXform(p), b.getWorldTransform().invXform(p),
-                          bullet_vector(contact.n_BA_W), -std::min(contact.depth_m, most_m));
+    const btVector3 p = to_bt(p_W);
+    btManifoldPoint point(a.getWorldTransform().invXform(p), b.getWorldTransform().invXform(p), to_bt(contact.n_BA_W),
+                          -std::min(contact.depth_m, most_m));
     point.m_positionWorldOnA = p;
     point.m_positionWorldOnB = p;
     const Vec3 v_BA_W = velocity_at(a.getCollisionObject(), p_W) - velocity_at(b.getCollisionObject(), p_W);

@@ -16,7 +16,7 @@ std::size_t index_of(BodyId body) {
   return body ? body.index() : kGround;
 }
 
-std::size_t most_rows(const Coupling& coupling) {
+std::size_t most_rows_of(const Coupling& coupling) {
   switch (coupling.kind) {
     case CouplingKind::fixed:
       return 6;
@@ -60,30 +60,26 @@ bool known(const Coupling& c, const state::WorldState& state) {
 
 Expected<CouplingRows> CouplingRows::create(const state::WorldState& state) {
   CouplingRows out;
-  std::size_t rows = 0;
   for (std::size_t i = 0; i < state.couplings.size(); ++i) {
     if (!known(state.couplings[i], state))
       return fail(ErrorCode::invalid_value, "it ties a body or joint that does not exist, or has a number out of range",
                   "coupling " + std::to_string(i), "name bodies and joints of this world, and positive sizes");
-    rows += most_rows(state.couplings[i]);
+    out.most_rows_ += most_rows_of(state.couplings[i]);
   }
-  out.train.reserve(rows, state.bodies.size());
   out.first_.resize(state.couplings.size());
   out.rows_.resize(state.couplings.size());
-  out.uses_.reserve(2 * rows);
   return out;
 }
 
 void CouplingRows::gather(const state::WorldState& state, std::span<const Frame> frames,
-                          std::span<const JointAxis> axes, double dt_s) noexcept {
+                          std::span<const JointAxis> axes, double dt_s, Mechanism& mechanism) noexcept {
   frames_ = frames;
   axes_ = axes;
   dt_s_ = dt_s;
-  train.clear();
-  uses_.clear();
+  mechanism_ = &mechanism;
   for (std::size_t i = 0; i < state.couplings.size(); ++i) {
     const Coupling& coupling = state.couplings[i];
-    first_[i] = train.size();
+    first_[i] = mechanism.size();
     if (coupling.enabled) {
       switch (coupling.kind) {
         case CouplingKind::fixed:
@@ -105,15 +101,14 @@ void CouplingRows::gather(const state::WorldState& state, std::span<const Frame>
           break;
       }
     }
-    rows_[i] = train.size() - first_[i];
+    rows_[i] = mechanism.size() - first_[i];
   }
-  train.combine(frames);
 }
 
-void CouplingRows::add_axis(std::size_t row, std::size_t joint, double factor) noexcept {
+/// Adds `factor` times a joint's rate to the last row.
+void CouplingRows::add_axis(std::size_t joint, double factor) noexcept {
   const JointAxis& axis = axes_[joint];
-  train.add_row(axis.row, axis.body1, axis.body2, factor, frames_);
-  uses_.push_back({row, joint, factor});
+  mechanism_->add_terms(axis.row, axis.body1, axis.body2, factor, frames_);
 }
 
 void CouplingRows::add_fixed(const Coupling& tie) noexcept {
@@ -125,12 +120,14 @@ void CouplingRows::add_fixed(const Coupling& tie) noexcept {
   const Vec3 shift_W = X_WB2.p - X_WP.p;
   const Vec3 turn_W = rotation_vector(X_WB2.R * X_WP.R.conjugate());
   for (int k = 0; k < 3; ++k) {
-    train.add(-correction(shift_W[k], dt_s_, kMaxLinearCorrection));
-    train.add_row(linear_row(frame1, frames_[b2], X_WB2.p, Vec3::Unit(k)), b1, b2, 1, frames_);
+    Row row = linear_row(frame1, frames_[b2], X_WB2.p, Vec3::Unit(k));
+    row.target = -correction(shift_W[k], dt_s_, kMaxLinearCorrection);
+    mechanism_->add_row(row, b1, b2, frames_);
   }
   for (int k = 0; k < 3; ++k) {
-    train.add(-correction(turn_W[k], dt_s_, kMaxAngularCorrection));
-    train.add_row(angular_row(Vec3::Unit(k)), b1, b2, 1, frames_);
+    Row row = angular_row(Vec3::Unit(k));
+    row.target = -correction(turn_W[k], dt_s_, kMaxAngularCorrection);
+    mechanism_->add_row(row, b1, b2, frames_);
   }
 }
 
@@ -139,12 +136,15 @@ void CouplingRows::add_gear(const Coupling& gear) noexcept {
   if (!axis_on(gear.joint1) || !axis_on(gear.joint2)) return;
   const std::size_t j1 = gear.joint1.index(), j2 = gear.joint2.index();
   const double error = gear.ratio * axes_[j1].now.position - axes_[j2].now.position - gear.offset;
-  const std::size_t row = train.add(-correction(error, dt_s_, kMaxAngularCorrection));
-  add_axis(row, j1, gear.ratio);
-  add_axis(row, j2, -1);
-  if (gear.loss <= 0) return;
-  const std::size_t friction = train.add(0, TrainLimit::friction, 0, gear.loss * std::abs(gear.ratio), row);
-  add_axis(friction, j1, 1);
+  const double target = -correction(error, dt_s_, kMaxAngularCorrection);
+  const bool rubs = gear.loss > 0;
+  // A row that another follows must be among those with limits, even though it has none.
+  const std::size_t teeth = mechanism_->add({target, rubs ? RowLimit::range : RowLimit::none, 0, -kEndless, kEndless});
+  add_axis(j1, gear.ratio);
+  add_axis(j2, -1);
+  if (!rubs) return;
+  mechanism_->add({0, RowLimit::friction, teeth, 0, gear.loss * std::abs(gear.ratio)});
+  add_axis(j1, 1);
 }
 
 /// The ratio in this step is the mean slope of the stair over it, so that the joint stops at the corner of a window and not past it.
@@ -160,17 +160,17 @@ void CouplingRows::add_intermittent(const Coupling& gear) noexcept {
   if (ratio == 0 && !gear.lock) return;
   // A wheel that is not locked may stand anywhere when the tooth comes, and is taken along from there.
   const double error = gear.lock ? now - axes_[j2].now.position - gear.offset : 0;
-  const std::size_t row = train.add(-correction(error, dt_s_, kMaxAngularCorrection));
-  if (ratio != 0) add_axis(row, j1, ratio);
-  add_axis(row, j2, -1);
+  mechanism_->add({-correction(error, dt_s_, kMaxAngularCorrection)});
+  if (ratio != 0) add_axis(j1, ratio);
+  add_axis(j2, -1);
 }
 
 void CouplingRows::add_stop(const Coupling& stop) noexcept {
   if (!axis_on(stop.joint1)) return;
   const std::size_t j = stop.joint1.index();
   const double beyond = -stop.sign * (axes_[j].now.position - stop.offset);
-  const std::size_t row = train.add(limit_speed(beyond, dt_s_, kMaxAngularCorrection), TrainLimit::range, 0, kEndless);
-  add_axis(row, j, stop.sign);
+  mechanism_->add({limit_speed(beyond, dt_s_, kMaxAngularCorrection), RowLimit::range, 0, 0, kEndless});
+  add_axis(j, stop.sign);
 }
 
 /// Adds to the last row how fast part number `part`, from a node to the next, grows.
@@ -183,7 +183,7 @@ void CouplingRows::add_rope_part(const Coupling& rope, const state::RopePath& pa
   const auto add = [&](const state::RopeNode& node, const Vec3& p, double sign) {
     if (!node.body) return;
     const std::size_t body = node.body.index();
-    train.add_term(body, sign * u, sign * (p - frames_[body].p_WCm).cross(u), frames_);
+    mechanism_->add_term(body, sign * u, sign * (p - frames_[body].p_WCm).cross(u), frames_);
   };
   add(rope.nodes[part], from, -1);
   add(rope.nodes[part + 1], to, 1);
@@ -201,7 +201,7 @@ void CouplingRows::add_rope(const state::WorldState& state, const Coupling& rope
     too_long += drum.sense * drum.radius_m * (path.drum_angle_rad - axes_[rope.joint1.index()].now.position);
   }
   const std::size_t leader =
-      train.add(-limit_speed(too_long, dt_s_, kMaxLinearCorrection), TrainLimit::range, -kEndless, 0);
+      mechanism_->add({-limit_speed(too_long, dt_s_, kMaxLinearCorrection), RowLimit::range, 0, -kEndless, 0});
   for (std::size_t part = 0; part < parts; ++part)
     add_rope_part(rope, path, part);
   for (std::size_t i = 1; i < parts; ++i) {
@@ -209,17 +209,14 @@ void CouplingRows::add_rope(const state::WorldState& state, const Coupling& rope
     const double wrap = std::max(0.0, path.wrap_rad[i]);
     const double efficiency = sheave.efficiency * std::exp(-sheave.friction_coefficient * wrap);
     if (efficiency >= 1) continue;
-    train.add(0, TrainLimit::sheave, 1 - 1 / efficiency, 1 - efficiency, leader);
+    mechanism_->add({0, RowLimit::sheave, leader, 1 - 1 / efficiency, 1 - efficiency});
     for (std::size_t part = i; part < parts; ++part)
       add_rope_part(rope, path, part);
   }
 }
 
-void CouplingRows::store(state::WorldState& state, std::span<JointAxis> axes, double dt_s) const noexcept {
-  for (JointAxis& axis : axes)
-    axis.extra_impulse = 0;
-  for (const Use& use : uses_)
-    axes[use.joint].extra_impulse += use.factor * train.impulse_of(use.row);
+void CouplingRows::store(state::WorldState& state, std::span<const JointAxis> axes, const Mechanism& mechanism,
+                         double dt_s) const noexcept {
   for (std::size_t i = 0; i < state.couplings.size(); ++i) {
     Coupling& to = state.couplings[i];
     to.forget_forces();
@@ -231,7 +228,7 @@ void CouplingRows::store(state::WorldState& state, std::span<JointAxis> axes, do
       to.slack_m = std::max(0.0, to.length_m - path.length_m);
     }
     if (rows_[i] == 0) continue;
-    const auto bore = [&](std::size_t row) { return train.impulse_of(first_[i] + row) / dt_s; };
+    const auto bore = [&](std::size_t row) { return mechanism.impulse_of(first_[i] + row) / dt_s; };
     switch (to.kind) {
       case CouplingKind::fixed:
         to.force_n = Vec3(bore(0), bore(1), bore(2)).norm();
@@ -245,7 +242,7 @@ void CouplingRows::store(state::WorldState& state, std::span<JointAxis> axes, do
       default: {
         const bool second = to.kind == CouplingKind::gear || to.kind == CouplingKind::intermittent;
         const JointAxis& axis = axes[(second ? to.joint2 : to.joint1).index()];
-        (axis.raw.n_W.isZero() ? to.torque_nm : to.force_n) = std::abs(bore(0));
+        (axis.row.n_W.isZero() ? to.torque_nm : to.force_n) = std::abs(bore(0));
       }
     }
   }

@@ -1,11 +1,11 @@
-// Gears, ratchets, ropes and ties as rows of a Train.
+// Gears, ratchets, ropes and ties as rows of a Mechanism.
 #pragma once
 
 #include <vector>
 
 #include "server/base/error.hpp"
 #include "server/dynamics/joint_rows.hpp"
-#include "server/dynamics/train.hpp"
+#include "server/dynamics/mechanism.hpp"
 
 namespace mechane::dynamics {
 
@@ -14,10 +14,9 @@ struct JointAxis {
   bool on = false;
   std::size_t body1 = kGround;
   std::size_t body2 = kGround;
-  Row raw;  ///< the joint's rate
-  Row row;  ///< the same, free of the joint's own locks; see decouple()
+  Row row;  ///< the joint's rate
   JointMeasure now;
-  double extra_impulse = 0;  ///< of couplings along it, after the step
+  Vec3 arm2_W = Vec3::Zero();  ///< from body2's centre of mass to the joint
 };
 
 /// The couplings of one world. Joints that are off, and balls, couple nothing.
@@ -26,22 +25,19 @@ class CouplingRows {
   /// Errors name the coupling by index: a body or joint that does not exist, a number out of range. Allocates for all later steps.
   [[nodiscard]] static Expected<CouplingRows> create(const state::WorldState& state);
 
-  /// Overwrites the train with what the couplings ask for in a step of dt_s. Position errors are taken back as joints do. A rope and
+  /// As many as gather() can add.
+  [[nodiscard]] std::size_t most_rows() const noexcept { return most_rows_; }
+
+  /// Adds to the mechanism what the couplings ask for in a step of dt_s. Position errors are taken back as joints do. A rope and
   /// a stop let their ends move in this step up to their limit, and no further. `frames` are the bodies at the start of the step.
   void gather(const state::WorldState& state, std::span<const Frame> frames, std::span<const JointAxis> axes,
-              double dt_s) noexcept;
-  /// Writes what the couplings bore, after the train was solved, and the impulse along each joint's axis.
-  void store(state::WorldState& state, std::span<JointAxis> axes, double dt_s) const noexcept;
-
-  Train train;
+              double dt_s, Mechanism& mechanism) noexcept;
+  /// Writes what the couplings bore, after the mechanism was solved.
+  void store(state::WorldState& state, std::span<const JointAxis> axes, const Mechanism& mechanism,
+             double dt_s) const noexcept;
 
  private:
-  struct Use {
-    std::size_t row;
-    std::size_t joint;
-    double factor;
-  };
-  void add_axis(std::size_t row, std::size_t joint, double factor) noexcept;
+  void add_axis(std::size_t joint, double factor) noexcept;
   void add_fixed(const state::Coupling& tie) noexcept;
   void add_gear(const state::Coupling& gear) noexcept;
   void add_intermittent(const state::Coupling& gear) noexcept;
@@ -52,8 +48,9 @@ class CouplingRows {
 
   std::vector<std::size_t> first_;  // row of each coupling
   std::vector<std::size_t> rows_;   // how many
-  std::vector<Use> uses_;
+  std::size_t most_rows_ = 0;
   // Of the step that is being gathered.
+  Mechanism* mechanism_ = nullptr;
   std::span<const Frame> frames_;
   std::span<const JointAxis> axes_;
   double dt_s_ = 0;

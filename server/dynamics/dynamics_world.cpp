@@ -5,111 +5,20 @@
 #include <string>
 #include <vector>
 
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
-#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "server/base/assert.hpp"
 #include "server/dynamics/body_contacts.hpp"
+#include "server/dynamics/bullet_math.hpp"
+#include "server/dynamics/contact_solver.hpp"
 #include "server/dynamics/coupling_rows.hpp"
 #include "server/dynamics/grasp_rows.hpp"
 #include "server/dynamics/joint_rows.hpp"
+#include "server/dynamics/mechanism.hpp"
 
 namespace mechane::dynamics {
 namespace {
-
-constexpr int kSolverIterations = 60;
-constexpr double kSolverResidual = 1e-20;  // (m/s)^2: the iterations end when no row changes by more than 1e-10 m/s
-
-btVector3 to_bt(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-btQuaternion to_bt(const Quat& q) {
-  return {q.x(), q.y(), q.z(), q.w()};
-}
-btTransform to_bt(const Pose& X) {
-  return btTransform(to_bt(X.R), to_bt(X.p));
-}
-Vec3 from_bt(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-/// The one kind of constraint that this room gives to Bullet: the rows that joint_rows and grasp_rows computed. Bullet's body A is
-/// body2, its body B is body1.
-class RowConstraint final : public btTypedConstraint {
- public:
-  RowConstraint(btRigidBody& body1, btRigidBody& body2) : btTypedConstraint(MAX_CONSTRAINT_TYPE, body2, body1) {}
-
-  RowSet rows;
-
-  void getInfo1(btConstraintInfo1* info) override {
-    info->m_numConstraintRows = static_cast<int>(rows.count);
-    info->nub = 0;
-  }
-  void getInfo2(btConstraintInfo2* info) override {
-    for (std::size_t i = 0; i < rows.count; ++i) {
-      const Row& row = rows.rows[i];
-      const std::size_t at = i * static_cast<std::size_t>(info->rowskip);
-      copy(row.n_W, info->m_J1linearAxis + at);
-      copy(row.a2_W, info->m_J1angularAxis + at);
-      copy(-row.n_W, info->m_J2linearAxis + at);
-      copy(-row.a1_W, info->m_J2angularAxis + at);
-      info->m_constraintError[at] = row.target;
-      info->m_lowerLimit[at] = std::max(row.min_impulse, -static_cast<double>(SIMD_INFINITY));
-      info->m_upperLimit[at] = std::min(row.max_impulse, static_cast<double>(SIMD_INFINITY));
-    }
-  }
-  void setParam(int, btScalar, int) override {}
-  [[nodiscard]] btScalar getParam(int, int) const override { return 0; }
-
- private:
-  static void copy(const Vec3& v, btScalar* to) {
-    for (int k = 0; k < 3; ++k)
-      to[k] = v[k];
-  }
-};
-
-/// Bullet's solver, with a train of couplings swept after each of its own sweeps. The bodies that it is given begin with those of the
-/// train, in their order.
-class Solver final : public btSequentialImpulseConstraintSolver {
- public:
-  Train* train = nullptr;  // null: none
-
-  void reserve(std::size_t bodies) {
-    start_.resize(bodies);
-    delta_.resize(bodies);
-  }
-
- protected:
-  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
-                                btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** constraints,
-                                int constraint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override {
-    const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
-        iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, draw);
-    if (train == nullptr || train->size() == 0) return residual;
-    for (const std::size_t i : train->bodies()) {
-      const btSolverBody& body = solver_body(bodies[i]);
-      delta_[i] = {from_bt(body.m_deltaLinearVelocity), from_bt(body.m_deltaAngularVelocity)};
-      if (iteration != 0) continue;
-      start_[i] = {from_bt(body.m_linearVelocity + body.m_externalForceImpulse),
-                   from_bt(body.m_angularVelocity + body.m_externalTorqueImpulse)};
-    }
-    if (iteration == 0) train->begin(start_);
-    const double change = train->sweep(delta_);
-    for (const std::size_t i : train->bodies()) {
-      btSolverBody& body = solver_body(bodies[i]);
-      body.m_deltaLinearVelocity = to_bt(delta_[i].v);
-      body.m_deltaAngularVelocity = to_bt(delta_[i].w);
-    }
-    return std::max(residual, change);
-  }
-
- private:
-  btSolverBody& solver_body(const btCollisionObject* body) { return m_tmpSolverBodyPool[body->getCompanionId()]; }
-
-  std::vector<Twist> start_;
-  std::vector<Twist> delta_;
-};
 
 /// A body of ours and the same body in Bullet, which uses another frame. C is the centre of mass with the principal axes.
 struct Body {
@@ -123,7 +32,6 @@ struct Body {
   Wrench drive;       // simulated
   bool moves = true;  // whether Bullet has its mass now
   GripBody grip;
-  Frame frame;  // at the start of this step
 
   Body(const state::BodyDescription& from, double mass, const Vec3& principal, const Pose& X_BC_in)
       : bullet(btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, nullptr, to_bt(principal))),
@@ -139,10 +47,10 @@ struct Body {
   }
 };
 
-/// The hand's end of a grip: see GripStep.
-struct Hand {
-  btRigidBody proxy{btRigidBody::btRigidBodyConstructionInfo(1, nullptr, nullptr, btVector3(1, 1, 1))};
-  btJointFeedback feedback;
+/// Rows in the mechanism.
+struct Placed {
+  RowSet rows;
+  std::size_t first = 0;
 };
 
 std::string place_of(const state::BodyDescription& body) {
@@ -194,46 +102,46 @@ Expected<void> check_joint(const state::WorldDescription& description, const sta
 struct DynamicsWorld::Impl {
   struct Joint {
     state::JointDescription description;
-    Body* body1;
-    Body* body2;
-    std::unique_ptr<RowConstraint> constraint;
-    std::unique_ptr<btJointFeedback> feedback;  // null: nothing measures what it bears
+    std::size_t body1;  // or kGround
+    std::size_t body2;
+    Placed placed;
   };
 
   Vec3 gravity_W;
-  std::unique_ptr<Body> ground;  // body1 of joints that hang on the world
+  Frame ground;  // body1 of joints that hang on the world
   std::vector<std::unique_ptr<Body>> bodies;
   std::vector<Joint> joints;
-  std::array<Hand, hand::kMaxUsers> hands;
-  std::vector<std::unique_ptr<RowConstraint>> grips;  // by user, then body
-  std::unique_ptr<BodyContacts> contacts;             // null: no two bodies may ever meet
-  std::unique_ptr<CouplingRows> couplings;            // null: the world has none
-  std::vector<JointAxis> axes;                        // by joint; empty without couplings
-  std::vector<Frame> frames;                          // by body, at the start of this step; empty without couplings
-  Solver solver;
-  btContactSolverInfo solver_info;
-  std::vector<btCollisionObject*> solver_bodies;
-  std::vector<btTypedConstraint*> active;  // the constraints of this step, in a fixed order; capacity for all
+  std::array<Placed, hand::kMaxUsers> grips;
+  std::unique_ptr<BodyContacts> contacts;   // null: no two bodies may ever meet
+  std::unique_ptr<CouplingRows> couplings;  // null: the world has none
+  std::vector<JointAxis> axes;              // by joint; empty without couplings
+  std::vector<Frame> frames;                // by body, at the start of this step
+  std::vector<Twist> free;                  // by body, its velocity after the step but for all rows and contacts
+  Mechanism mechanism;
+  ContactSolver contact_solver{mechanism, frames, free};
+  std::vector<btCollisionObject*> touching;  // those that have contacts in this step and can move; capacity for all
+  std::vector<char> touches;                 // by body: it is in touching
 
   void add_joint(const state::JointDescription& from);
   Expected<void> add_couplings(const state::WorldState& state);
-  void add_grips();
-  void warm_up(double dt_s);
+  void reserve();
   void load_bodies(const state::WorldState& state);
   void apply_forces(state::WorldState& state, double dt_s);
   void apply_axis_force(const Joint& joint, const JointMeasure& now, double force);
-  static double most_viscous(const Joint& joint, const JointMeasure& now, double dt_s);
+  [[nodiscard]] double most_viscous(const Joint& joint, const JointMeasure& now, double dt_s) const;
   void gather_joints(state::WorldState& state, double dt_s);
   void gather_grasps(state::WorldState& state, double dt_s);
-  void gather_couplings(const state::WorldState& state, double dt_s);
-  void integrate(double dt_s);
-  void store_bodies(state::WorldState& state);
-  void store_joints(state::WorldState& state);
-  void store_grasps(state::WorldState& state);
-  void store_couplings(state::WorldState& state, double dt_s);
+  void add_rows(Placed& placed, std::size_t body1, std::size_t body2);
+  void free_velocities(double dt_s);
   void solve(std::span<btPersistentManifold*> manifolds, double dt_s);
+  void find_touching(std::span<btPersistentManifold*> manifolds);
+  void move_bodies(state::WorldState& state, double dt_s);
+  void store_joints(state::WorldState& state);
+  void store_grasps(state::WorldState& state, double dt_s);
+  void store_watches(state::WorldState& state, double dt_s);
 
-  RowConstraint& grip(std::size_t user, std::size_t body) { return *grips[user * bodies.size() + body]; }
+  [[nodiscard]] const Frame& frame_of(std::size_t body) const { return body == kGround ? ground : frames[body]; }
+  [[nodiscard]] Wrench wrench_of(const Placed& placed, double dt_s, const Vec3 Row::*arm) const;
 };
 
 DynamicsWorld::DynamicsWorld(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -242,11 +150,13 @@ DynamicsWorld::~DynamicsWorld() = default;
 Expected<std::unique_ptr<DynamicsWorld>> DynamicsWorld::create(const state::WorldDescription& description,
                                                                const state::WorldState& state) {
   MECHANE_ASSERT(state.bodies.size() == description.bodies.size() && state.joints.size() == description.joints.size());
+  if (const std::size_t most = std::max(state.joints.size(), state.couplings.size()); most > state::kMaxJoints)
+    return fail(
+        ErrorCode::too_large,
+        std::to_string(most) + " joints or couplings are too many: a world takes " + std::to_string(state::kMaxJoints),
+        {}, "make one body of those that do not move on each other, or divide the exhibit");
   auto impl = std::make_unique<Impl>();
   impl->gravity_W = description.gravity_W;
-  state::BodyDescription ground;
-  ground.fixed = true;
-  impl->ground = std::make_unique<Body>(ground, 0.0, Vec3::Zero(), Pose{});
   for (const state::BodyDescription& from : description.bodies) {
     auto body = make_body(from);
     if (!body) return tl::unexpected(body.error());
@@ -262,16 +172,13 @@ Expected<std::unique_ptr<DynamicsWorld>> DynamicsWorld::create(const state::Worl
   auto contacts = BodyContacts::create(description, colliders);
   if (!contacts) return tl::unexpected(contacts.error());
   impl->contacts = std::move(*contacts);
-  impl->add_grips();
   if (const auto good = impl->add_couplings(state); !good) return tl::unexpected(good.error());
-  impl->warm_up(1e-3);
+  impl->reserve();
   return std::unique_ptr<DynamicsWorld>(new DynamicsWorld(std::move(impl)));
 }
 
 void DynamicsWorld::Impl::add_joint(const state::JointDescription& from) {
-  Body* body1 = from.body1 ? bodies[from.body1.index()].get() : ground.get();
-  Body* body2 = bodies[from.body2.index()].get();
-  joints.push_back({from, body1, body2, std::make_unique<RowConstraint>(body1->bullet, body2->bullet), nullptr});
+  joints.push_back({from, from.body1 ? from.body1.index() : kGround, from.body2.index(), {}});
 }
 
 Expected<void> DynamicsWorld::Impl::add_couplings(const state::WorldState& state) {
@@ -279,58 +186,33 @@ Expected<void> DynamicsWorld::Impl::add_couplings(const state::WorldState& state
   auto made = CouplingRows::create(state);
   if (!made) return tl::unexpected(made.error());
   couplings = std::make_unique<CouplingRows>(std::move(*made));
-  frames.resize(bodies.size());
   axes.resize(joints.size());
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const state::JointDescription& joint = joints[i].description;
-    axes[i].body1 = joint.body1 ? joint.body1.index() : kGround;
-    axes[i].body2 = joint.body2.index();
+    axes[i].body1 = joints[i].body1;
+    axes[i].body2 = joints[i].body2;
   }
-  for (const state::Coupling& coupling : state.couplings) {
-    if (coupling.kind != state::CouplingKind::watch) continue;
-    Joint& joint = joints[coupling.joint1.index()];
-    if (!joint.feedback) joint.feedback = std::make_unique<btJointFeedback>();
-    joint.constraint->setJointFeedback(joint.feedback.get());
-  }
-  solver.train = &couplings->train;
-  solver.reserve(bodies.size());
   return {};
 }
 
-void DynamicsWorld::Impl::add_grips() {
-  for (auto& body : bodies)
-    solver_bodies.push_back(&body->bullet);
-  for (Hand& hand : hands) {
-    hand.proxy.setDamping(0, 0);
-    hand.proxy.setFlags(0);
-    solver_bodies.push_back(&hand.proxy);
-    for (auto& body : bodies) {
-      grips.push_back(std::make_unique<RowConstraint>(hand.proxy, body->bullet));
-      grips.back()->setJointFeedback(&hand.feedback);
-    }
-  }
-  active.reserve(joints.size() + grips.size());
-  solver_info.m_numIterations = kSolverIterations;
-  solver_info.m_leastSquaresResidualThreshold = kSolverResidual;
-  set_contact_solver(solver_info);
-}
-
-/// Bullet's solver keeps its tables from step to step: one solve with every row that can ever be asked for at once sizes them, so
-/// that no later step allocates.
-void DynamicsWorld::Impl::warm_up(double dt_s) {
-  active.clear();
-  for (Joint& joint : joints)
-    active.push_back(joint.constraint.get());
-  for (auto& grip : grips)
-    active.push_back(grip.get());
-  for (btTypedConstraint* constraint : active) {
-    RowSet& rows = static_cast<RowConstraint*>(constraint)->rows;
-    rows.clear();
-    while (rows.count < rows.rows.size())
-      rows.add(angular_row(Vec3::UnitX()));
-  }
-  solve(contacts ? contacts->fill() : std::span<btPersistentManifold*>(), dt_s);
-  active.clear();
+/// Room for every row that can ever be asked for at once, so that no step allocates. Bullet's solver keeps its tables from step to step:
+/// one solve with all contacts sizes them.
+void DynamicsWorld::Impl::reserve() {
+  const std::size_t of_couplings = couplings ? couplings->most_rows() : 0;
+  const std::size_t of_pairs = joints.size() * RowSet::kMost;
+  const std::size_t of_grips = grips.size() * RowSet::kMost;
+  const std::size_t of_contacts = contacts ? ContactSolver::kMostOwnRows : 0;
+  const std::size_t tied = 2 * joints.size() + grips.size() + state::kMaxRopeNodes * of_couplings;
+  mechanism.reserve(of_pairs + of_grips + of_couplings + of_contacts,
+                    2 * (of_pairs + of_contacts) + of_grips + state::kMaxRopeNodes * of_couplings, bodies.size(),
+                    std::min(tied, bodies.size()));
+  frames.resize(bodies.size());
+  free.resize(bodies.size());
+  touches.resize(bodies.size());
+  touching.reserve(bodies.size());
+  contact_solver.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    bodies[i]->bullet.setUserIndex(static_cast<int>(i));
+  if (contacts) solve(contacts->fill(), 1e-3);
 }
 
 void DynamicsWorld::step(state::WorldState& state, double dt_s) noexcept {
@@ -339,16 +221,17 @@ void DynamicsWorld::step(state::WorldState& state, double dt_s) noexcept {
                  (impl_->couplings != nullptr || state.couplings.empty()));
   impl_->load_bodies(state);
   impl_->apply_forces(state, dt_s);
-  impl_->active.clear();
+  impl_->mechanism.clear();
   impl_->gather_joints(state, dt_s);
   impl_->gather_grasps(state, dt_s);
-  if (impl_->couplings) impl_->gather_couplings(state, dt_s);
+  if (impl_->couplings) impl_->couplings->gather(state, impl_->frames, impl_->axes, dt_s, impl_->mechanism);
+  impl_->free_velocities(dt_s);
+  impl_->mechanism.factor();
   impl_->solve(impl_->contacts ? impl_->contacts->find(state, dt_s) : std::span<btPersistentManifold*>(), dt_s);
-  impl_->integrate(dt_s);
-  impl_->store_bodies(state);
+  impl_->move_bodies(state, dt_s);
   impl_->store_joints(state);
-  impl_->store_grasps(state);
-  if (impl_->couplings) impl_->store_couplings(state, dt_s);
+  impl_->store_grasps(state, dt_s);
+  if (impl_->couplings) impl_->store_watches(state, dt_s);
 }
 
 void DynamicsWorld::Impl::load_bodies(const state::WorldState& state) {
@@ -358,17 +241,27 @@ void DynamicsWorld::Impl::load_bodies(const state::WorldState& state) {
     const bool moves = from.movable && !body.fixed;
     if (moves != body.moves) {
       body.bullet.setMassProps(moves ? body.mass_kg : 0, to_bt(moves ? body.principal_kg_m2 : Vec3::Zero()));
+      body.bullet.setLinearVelocity({0, 0, 0});
+      body.bullet.setAngularVelocity({0, 0, 0});
       body.moves = moves;
     }
     const Pose X_WC = from.X_WB * body.X_BC;
-    const Twist V_WC = moves ? Twist{from.V_WB.at(X_WC.p - from.X_WB.p), from.V_WB.w} : Twist{};
+    Frame& frame = frames[i];
+    frame.X_WB = from.X_WB;
+    frame.p_WCm = X_WC.p;
+    if (moves || contacts) body.bullet.setWorldTransform(to_bt(X_WC));
+    if (!moves) {
+      frame.V_WCm = {};
+      frame.inverse_mass = 0;
+      frame.inverse_inertia_W.setZero();
+      continue;
+    }
     const Mat3 R_WC(X_WC.R);
-    const Vec3 inverse = moves ? Vec3(body.principal_kg_m2.cwiseInverse()) : Vec3::Zero();
-    body.frame = {from.X_WB, X_WC.p, V_WC, moves ? 1 / body.mass_kg : 0,
-                  R_WC * inverse.asDiagonal() * R_WC.transpose()};
-    body.bullet.setCenterOfMassTransform(to_bt(X_WC));
-    body.bullet.setLinearVelocity(to_bt(V_WC.v));
-    body.bullet.setAngularVelocity(to_bt(V_WC.w));
+    frame.V_WCm = {from.V_WB.at(X_WC.p - from.X_WB.p), from.V_WB.w};
+    frame.inverse_mass = 1 / body.mass_kg;
+    frame.inverse_inertia_W = R_WC * body.principal_kg_m2.cwiseInverse().asDiagonal() * R_WC.transpose();
+    body.bullet.setLinearVelocity(to_bt(frame.V_WCm.v));
+    body.bullet.setAngularVelocity(to_bt(frame.V_WCm.w));
     body.bullet.clearForces();
   }
 }
@@ -379,7 +272,7 @@ void DynamicsWorld::Impl::apply_forces(state::WorldState& state, double dt_s) {
     Wrench& load = state.bodies[i].load_W;
     if (body.moves) {
       const Vec3 weight = body.use_gravity ? Vec3(body.mass_kg * gravity_W) : Vec3::Zero();
-      const Vec3 arm = body.frame.X_WB.p - body.frame.p_WCm;
+      const Vec3 arm = frames[i].X_WB.p - frames[i].p_WCm;
       body.bullet.applyCentralForce(to_bt(weight + body.drive.f + load.f));
       body.bullet.applyTorque(to_bt(body.drive.t + load.t + arm.cross(load.f)));
       body.bullet.applyDamping(dt_s);
@@ -390,24 +283,26 @@ void DynamicsWorld::Impl::apply_forces(state::WorldState& state, double dt_s) {
 
 /// Equal and opposite on the two bodies, along (slider) or about (hinge) the joint's axis.
 void DynamicsWorld::Impl::apply_axis_force(const Joint& joint, const JointMeasure& now, double force) {
-  for (const auto& [body, sign] : {std::pair{joint.body2, 1.0}, std::pair{joint.body1, -1.0}}) {
-    if (!body->moves) continue;
+  if (force == 0) return;
+  for (const auto& [index, sign] : {std::pair{joint.body2, 1.0}, std::pair{joint.body1, -1.0}}) {
+    if (frame_of(index).inverse_mass == 0) continue;
+    btRigidBody& body = bodies[index]->bullet;
     const Vec3 along_W = sign * force * now.axis_W;
     if (joint.description.kind == state::JointKind::hinge) {
-      body->bullet.applyTorque(to_bt(along_W));
+      body.applyTorque(to_bt(along_W));
     } else {
-      body->bullet.applyCentralForce(to_bt(along_W));
-      body->bullet.applyTorque(to_bt((now.p_WJ - body->frame.p_WCm).cross(along_W)));
+      body.applyCentralForce(to_bt(along_W));
+      body.applyTorque(to_bt((now.p_WJ - frames[index].p_WCm).cross(along_W)));
     }
   }
 }
 
 /// The coefficient that stops the joint in one step; a larger one would reverse it. From the bodies' own mass or inertia, which is at
 /// most the joint's.
-double DynamicsWorld::Impl::most_viscous(const Joint& joint, const JointMeasure& now, double dt_s) {
+double DynamicsWorld::Impl::most_viscous(const Joint& joint, const JointMeasure& now, double dt_s) const {
   double inverse = 0;
-  for (const Body* body : {joint.body1, joint.body2}) {
-    const Frame& f = body->frame;
+  for (const std::size_t body : {joint.body1, joint.body2}) {
+    const Frame& f = frame_of(body);
     inverse += joint.description.kind == state::JointKind::hinge ? now.axis_W.dot(f.inverse_inertia_W * now.axis_W)
                                                                  : f.inverse_mass;
   }
@@ -418,19 +313,21 @@ void DynamicsWorld::Impl::gather_joints(state::WorldState& state, double dt_s) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     Joint& joint = joints[i];
     state::JointState& at = state.joints[i];
-    JointAxis* axis = couplings ? &axes[i] : nullptr;
-    if (axis != nullptr) axis->on = false;
-    if (at.enabled) {
-      const JointMeasure now = measure_joint(joint.description, joint.body1->frame, joint.body2->frame, at.position);
-      const double drag = -std::min(at.viscous, most_viscous(joint, now, dt_s)) * now.velocity;
+    const Frame& body1 = frame_of(joint.body1);
+    const Frame& body2 = frame_of(joint.body2);
+    const bool on = at.enabled && body1.inverse_mass + body2.inverse_mass > 0;
+    joint.placed.rows.clear();
+    if (!axes.empty()) axes[i].on = on && joint.description.kind != state::JointKind::ball;
+    if (on) {
+      const JointMeasure now = measure_joint(joint.description, body1, body2, at.position);
+      const double drag = at.viscous > 0 ? -std::min(at.viscous, most_viscous(joint, now, dt_s)) * now.velocity : 0;
       apply_axis_force(joint, now, at.load + drag);
-      joint_rows(joint.description, at, joint.body1->frame, joint.body2->frame, dt_s, joint.constraint->rows,
-                 axis != nullptr ? &axis->row : nullptr);
-      if (joint.constraint->rows.count > 0) active.push_back(joint.constraint.get());
-      if (axis != nullptr) {
-        axis->on = joint.constraint->rows.count > 0 && joint.description.kind != state::JointKind::ball;
-        axis->now = now;
-        axis->raw = joint_axis_row(joint.description, joint.body1->frame, joint.body2->frame, now);
+      joint_rows(joint.description, at, body1, body2, now, dt_s, joint.placed.rows);
+      add_rows(joint.placed, joint.body1, joint.body2);
+      if (!axes.empty()) {
+        axes[i].now = now;
+        axes[i].arm2_W = now.p_WJ - body2.p_WCm;
+        axes[i].row = joint_axis_row(joint.description, body1, body2, now);
       }
     }
     at.load = 0;
@@ -441,51 +338,70 @@ void DynamicsWorld::Impl::gather_joints(state::WorldState& state, double dt_s) {
 void DynamicsWorld::Impl::gather_grasps(state::WorldState& state, double dt_s) {
   for (std::size_t u = 0; u < state.users.size(); ++u) {
     state::UserState& user = state.users[u];
-    btRigidBody& proxy = hands[u].proxy;
-    proxy.clearForces();
-    proxy.setLinearVelocity({0, 0, 0});
-    proxy.setAngularVelocity({0, 0, 0});
+    grips[u].rows.clear();
     if (!user.present || !user.grasp.active || !user.grasp.body) continue;
     const std::size_t held = user.grasp.body.index();
     MECHANE_ASSERT(held < bodies.size());
-    const Body& body = *bodies[held];
-    RowConstraint& constraint = grip(u, held);
-    const GripStep step = grasp_rows(grip_spring(body.grip, user.grasp.p_BG), body.frame, user, dt_s, constraint.rows);
-    if (constraint.rows.count == 0) continue;
-    const double inertia = 1 / step.inverse_inertia;
-    proxy.setMassProps(1 / step.inverse_mass, {inertia, inertia, inertia});
-    proxy.setCenterOfMassTransform(to_bt(Pose{step.p_WG, Quat::Identity()}));
-    proxy.setLinearVelocity(to_bt(step.V_WG.v));
-    proxy.setAngularVelocity(to_bt(step.V_WG.w));
-    active.push_back(&constraint);
+    grasp_rows(grip_spring(bodies[held]->grip, user.grasp.p_BG), frames[held], user, dt_s, grips[u].rows);
+    add_rows(grips[u], kGround, held);
   }
 }
 
-void DynamicsWorld::Impl::gather_couplings(const state::WorldState& state, double dt_s) {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    frames[i] = bodies[i]->frame;
-  couplings->gather(state, frames, axes, dt_s);
+void DynamicsWorld::Impl::add_rows(Placed& placed, std::size_t body1, std::size_t body2) {
+  placed.first = mechanism.size();
+  for (std::size_t k = 0; k < placed.rows.count; ++k)
+    mechanism.add_row(placed.rows.rows[k], body1, body2, frames);
 }
 
-void DynamicsWorld::Impl::solve(std::span<btPersistentManifold*> manifolds, double dt_s) {
-  solver_info.m_timeStep = dt_s;
-  solver.solveGroup(solver_bodies.data(), static_cast<int>(solver_bodies.size()), manifolds.data(),
-                    static_cast<int>(manifolds.size()), active.data(), static_cast<int>(active.size()), solver_info,
-                    nullptr, nullptr);
-}
-
-void DynamicsWorld::Impl::integrate(double dt_s) {
-  if (contacts) contacts->note_rest();
+/// With the torque by which a body that tumbles turns its axes, solved implicitly.
+void DynamicsWorld::Impl::free_velocities(double dt_s) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    btRigidBody& body = bodies[i]->bullet;
-    if (!bodies[i]->moves || (contacts && contacts->rests(i))) continue;
-    btTransform next;
-    body.predictIntegratedTransform(dt_s, next);
-    body.setCenterOfMassTransform(next);
+    if (!bodies[i]->moves) continue;
+    const btRigidBody& body = bodies[i]->bullet;
+    const Frame& frame = frames[i];
+    const btVector3 w = body.getAngularVelocity();
+    free[i].v = from_bt(body.getLinearVelocity()) + dt_s * frame.inverse_mass * from_bt(body.getTotalForce());
+    free[i].w = from_bt(w) + frame.inverse_inertia_W * (dt_s * from_bt(body.getTotalTorque()));
+    if (!w.isZero()) free[i].w += from_bt(body.computeGyroscopicImpulseImplicit_Body(dt_s));
   }
 }
 
-void DynamicsWorld::Impl::store_bodies(state::WorldState& state) {
+/// The bodies' velocities after the step.
+void DynamicsWorld::Impl::solve(std::span<btPersistentManifold*> manifolds, double dt_s) {
+  find_touching(manifolds);
+  if (!contact_solver.has_bodies()) mechanism.solve(free);
+  if (!manifolds.empty()) contact_solver.solve(touching, manifolds, dt_s);
+  for (const std::size_t body : mechanism.bodies()) {
+    free[body].v += mechanism.change(body).v;
+    free[body].w += mechanism.change(body).w;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i]->moves || touches[i] != 0) continue;  // Bullet has written the velocities of those that touch
+    bodies[i]->bullet.setLinearVelocity(to_bt(free[i].v));
+    bodies[i]->bullet.setAngularVelocity(to_bt(free[i].w));
+  }
+}
+
+void DynamicsWorld::Impl::find_touching(std::span<btPersistentManifold*> manifolds) {
+  std::fill(touches.begin(), touches.end(), char{0});
+  touching.clear();
+  for (const btPersistentManifold* manifold : manifolds) {
+    for (const btCollisionObject* object : {manifold->getBody0(), manifold->getBody1()}) {
+      const auto body = static_cast<std::size_t>(object->getUserIndex());
+      if (touches[body] != 0 || !bodies[body]->moves) continue;
+      touches[body] = 1;
+      bodies[body]->bullet.updateInertiaTensor();
+      touching.push_back(&bodies[body]->bullet);
+    }
+  }
+  contact_solver.clear();
+  for (const std::size_t body : mechanism.bodies()) {
+    if (touches[body] != 0) contact_solver.add(bodies[body]->bullet);
+  }
+}
+
+void DynamicsWorld::Impl::move_bodies(state::WorldState& state, double dt_s) {
+  if (contacts) contacts->note_rest();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& body = *bodies[i];
     state::BodyState& to = state.bodies[i];
@@ -493,7 +409,8 @@ void DynamicsWorld::Impl::store_bodies(state::WorldState& state) {
       to.V_WB = {};
       continue;
     }
-    const btTransform& X = body.bullet.getCenterOfMassTransform();
+    btTransform X = body.bullet.getWorldTransform();
+    if (!contacts || !contacts->rests(i)) body.bullet.predictIntegratedTransform(dt_s, X);
     const btQuaternion q = X.getRotation();
     const Pose X_WC{from_bt(X.getOrigin()), Quat(q.w(), q.x(), q.y(), q.z()).normalized()};
     Pose X_WB = X_WC * body.X_CB;
@@ -501,9 +418,9 @@ void DynamicsWorld::Impl::store_bodies(state::WorldState& state) {
     const Twist V_WC{from_bt(body.bullet.getLinearVelocity()), from_bt(body.bullet.getAngularVelocity())};
     to.X_WB = X_WB;
     to.V_WB = {V_WC.at(X_WB.p - X_WC.p), V_WC.w};
-    body.frame.X_WB = X_WB;
-    body.frame.p_WCm = X_WC.p;
-    body.frame.V_WCm = V_WC;
+    frames[i].X_WB = X_WB;
+    frames[i].p_WCm = X_WC.p;
+    frames[i].V_WCm = V_WC;
   }
 }
 
@@ -513,37 +430,40 @@ void DynamicsWorld::Impl::store_joints(state::WorldState& state) {
     to.velocity = 0;
     if (!to.enabled) continue;
     const JointMeasure now =
-        measure_joint(joints[i].description, joints[i].body1->frame, joints[i].body2->frame, to.position);
+        measure_joint(joints[i].description, frame_of(joints[i].body1), frame_of(joints[i].body2), to.position);
     to.position = now.position;
     to.velocity = now.velocity;
   }
 }
 
-void DynamicsWorld::Impl::store_grasps(state::WorldState& state) {
+/// What placed rows do to one of their bodies, of which `arm` is the member, about its centre of mass; without the sign.
+Wrench DynamicsWorld::Impl::wrench_of(const Placed& placed, double dt_s, const Vec3 Row::*arm) const {
+  Wrench sum;
+  for (std::size_t k = 0; k < placed.rows.count; ++k) {
+    const double force = mechanism.impulse_of(placed.first + k) / dt_s;
+    sum.f += force * placed.rows.rows[k].n_W;
+    sum.t += force * (placed.rows.rows[k].*arm);
+  }
+  return sum;
+}
+
+void DynamicsWorld::Impl::store_grasps(state::WorldState& state, double dt_s) {
   for (std::size_t u = 0; u < state.users.size(); ++u) {
-    state::Grasp& grasp = state.users[u].grasp;
-    grasp.reaction_W = {};
-    const btJointFeedback& feedback = hands[u].feedback;
-    const bool solved =
-        state.users[u].present && grasp.active && grasp.body && grip(u, grasp.body.index()).rows.count > 0;
-    if (solved) grasp.reaction_W = {from_bt(feedback.m_appliedForceBodyB), from_bt(feedback.m_appliedTorqueBodyB)};
+    const Wrench of_hand = wrench_of(grips[u], dt_s, &Row::a1_W);
+    state.users[u].grasp.reaction_W = {-of_hand.f, -of_hand.t};
   }
 }
 
-/// What a joint bears is what its own rows gave to body2, and what couplings along its axis left to its locks.
-void DynamicsWorld::Impl::store_couplings(state::WorldState& state, double dt_s) {
-  couplings->store(state, axes, dt_s);
+/// What couplings bore, and what joints bear: what their own rows give to body2.
+void DynamicsWorld::Impl::store_watches(state::WorldState& state, double dt_s) {
+  couplings->store(state, axes, mechanism, dt_s);
   for (state::Coupling& watch : state.couplings) {
     if (watch.kind != state::CouplingKind::watch || !watch.joint1 || !state[watch.joint1].enabled) continue;
     const std::size_t i = watch.joint1.index();
-    if (joints[i].constraint->rows.count == 0) continue;
-    const JointAxis& axis = axes[i];
-    const double extra = axis.on ? axis.extra_impulse / dt_s : 0;
-    const Vec3 f = from_bt(joints[i].feedback->m_appliedForceBodyA) + extra * (axis.row.n_W - axis.raw.n_W);
-    const Vec3 t = from_bt(joints[i].feedback->m_appliedTorqueBodyA) + extra * (axis.row.a2_W - axis.raw.a2_W);
-    const Vec3 arm = axis.now.p_WJ - frames[joints[i].description.body2.index()].p_WCm;
-    watch.force_n = f.norm();
-    watch.torque_nm = (t - arm.cross(f)).norm();
+    if (joints[i].placed.rows.count == 0) continue;
+    const Wrench bears = wrench_of(joints[i].placed, dt_s, &Row::a2_W);
+    watch.force_n = bears.f.norm();
+    watch.torque_nm = (bears.t - axes[i].arm2_W.cross(bears.f)).norm();
   }
 }
 

@@ -1,4 +1,4 @@
-// Rigid bodies, their joints and the springs by which hands hold them, solved by Bullet (float64).
+// Rigid bodies, their joints and the springs by which hands hold them, solved as a mechanism; contacts of free bodies by Bullet (float64).
 #pragma once
 
 #include <memory>

@@ -67,39 +67,37 @@ GripSpring grip_spring(const GripBody& body, const Vec3& p_BG) noexcept {
   return {k, d, k * lever2, d * lever2};
 }
 
-GripStep grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
-                    RowSet& rows) noexcept {
+void grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
+                RowSet& rows) noexcept {
   rows.clear();
-  GripStep grip;
-  grip.p_WG = body.X_WB * user.grasp.p_BG;
   const SpringStep linear = implicit_step(spring.stiffness_n_per_m, spring.damping_ns_per_m, dt_s);
   const SpringStep angular = implicit_step(spring.stiffness_nm_per_rad, spring.damping_nms_per_rad, dt_s);
-  if (linear.softness <= 0 || angular.softness <= 0) return grip;
+  if (linear.softness <= 0 || angular.softness <= 0) return;
 
+  const Vec3 p_WG = body.X_WB * user.grasp.p_BG;
   const Vec3 turn_error_W = slip(spring, body.X_WB, user);
   const Vec3 p_WG_wanted = user.X_WH * (user.grasp.X_HB * user.grasp.p_BG);
-  const Vec3 error_W = p_WG_wanted - grip.p_WG;
-  grip.V_WG = {user.V_WH.at(p_WG_wanted - user.X_WH.p), user.V_WH.w};
-  grip.inverse_mass = linear.softness;
-  grip.inverse_inertia = angular.softness;
+  const Vec3 error_W = p_WG_wanted - p_WG;
+  const Twist V_WG{user.V_WH.at(p_WG_wanted - user.X_WH.p), user.V_WH.w};
 
   const double share = std::clamp(user.freshness, 0.0, 1.0) * dt_s;
-  const Frame hand{{grip.p_WG, Quat::Identity()}, grip.p_WG, grip.V_WG, 0, Mat3::Zero()};
-  const Vec3 v_body = body.V_WCm.at(grip.p_WG - body.p_WCm);
-  const Mat3 n = axes_along(spring.stiffness_n_per_m * error_W + spring.damping_ns_per_m * (grip.V_WG.v - v_body));
-  const Mat3 a = axes_along(spring.stiffness_nm_per_rad * turn_error_W +
-                            spring.damping_nms_per_rad * (grip.V_WG.w - body.V_WCm.w));
+  const Frame hand{{p_WG, Quat::Identity()}, p_WG, V_WG, 0, Mat3::Zero()};
+  const Vec3 v_body = body.V_WCm.at(p_WG - body.p_WCm);
+  const Mat3 n = axes_along(spring.stiffness_n_per_m * error_W + spring.damping_ns_per_m * (V_WG.v - v_body));
+  const Mat3 a =
+      axes_along(spring.stiffness_nm_per_rad * turn_error_W + spring.damping_nms_per_rad * (V_WG.w - body.V_WCm.w));
   for (int k = 0; k < 3; ++k) {
-    Row& row = rows.add(linear_row(hand, body, grip.p_WG, n.col(k)));
-    row.target = linear.bias_per_s * n.col(k).dot(error_W);
+    Row& row = rows.add(linear_row(hand, body, p_WG, n.col(k)));
+    row.target = n.col(k).dot(linear.bias_per_s * error_W + V_WG.v);
+    row.softness = linear.softness;
     limit(row, k, user.grasp.force_limit_n * share);
   }
   for (int k = 0; k < 3; ++k) {
     Row& row = rows.add(angular_row(a.col(k)));
-    row.target = angular.bias_per_s * a.col(k).dot(turn_error_W);
+    row.target = a.col(k).dot(angular.bias_per_s * turn_error_W + V_WG.w);
+    row.softness = angular.softness;
     limit(row, k, user.grasp.torque_limit_nm * share);
   }
-  return grip;
 }
 
 }  // namespace mechane::dynamics

@@ -1,4 +1,4 @@
-// A hand that holds a body, as constraint rows between the body and a small proxy of the hand.
+// A hand that holds a body, as constraint rows between the body and the hand.
 #pragma once
 
 #include "server/dynamics/rows.hpp"
@@ -29,21 +29,12 @@ struct GripBody {
 /// the lever squared of the rotational spring is the body's inertia about the grip over its mass.
 [[nodiscard]] GripSpring grip_spring(const GripBody& body, const Vec3& p_BG) noexcept;
 
-/// The grip at the start of a step. The rows act between the body (body2) and a proxy of the hand (body1) whose centre of mass lies
-/// at `p_WG`, with the inverse mass and inertia given here. That is an implicit spring and damper (constraint force mixing:
-/// with spring k, damper d and step h, softness 1 / (h (k h + d)) and bias velocity k / (k h + d) times the error), put as a mass
-/// because the solver converges for a mass of any size.
-struct GripStep {
-  Vec3 p_WG = Vec3::Zero();    ///< the grip on the body
-  Twist V_WG;                  ///< velocity of the hand there
-  double inverse_mass = 0;     ///< 1/kg; 0: no spring, no rows
-  double inverse_inertia = 0;  ///< 1/(kg m^2)
-};
-
-/// Overwrites `rows` with the six rows of the grip of `user` on `body`. The impulse limits hold the force's and the torque's norm to
-/// their limits times the user's freshness, at most 6 % above where they act across the spring's own direction. Turns grasp.X_HB where
-/// the body lags more than 35 degrees behind the hand's rotation: it slips in the hand.
-[[nodiscard]] GripStep grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
-                                  RowSet& rows) noexcept;
+/// Overwrites `rows` with the six rows of the grip of `user` on `body`; none where the body has no stiffness. body1 is the hand, which
+/// moves as it moves: the targets hold its velocity. A row is an implicit spring and damper (constraint force mixing: with spring k,
+/// damper d and step h, softness 1 / (h (k h + d)) and bias velocity k / (k h + d) times the error). The impulse limits hold the force's
+/// and the torque's norm to their limits times the user's freshness, at most 6 % above where they act across the spring's own direction.
+/// Turns grasp.X_HB where the body lags more than 35 degrees behind the hand's rotation: it slips in the hand.
+void grasp_rows(const GripSpring& spring, const Frame& body, state::UserState& user, double dt_s,
+                RowSet& rows) noexcept;
 
 }  // namespace mechane::dynamics

@@ -115,17 +115,13 @@ Row joint_axis_row(const state::JointDescription& joint, const Frame& body1, con
 }
 
 void joint_rows(const state::JointDescription& joint, const state::JointState& state, const Frame& body1,
-                const Frame& body2, double dt_s, RowSet& rows, Row* axis) noexcept {
+                const Frame& body2, const JointMeasure& now, double dt_s, RowSet& rows) noexcept {
   rows.clear();
-  if (body1.inverse_mass + body2.inverse_mass <= 0) return;
   const Pose X_WJ1 = body1.X_WB * joint.X_B1J;
   const Pose X_WJ2 = body2.X_WB * joint.X_B2J;
-  const JointMeasure now = measure_joint(joint, body1, body2, state.position);
-  std::size_t locked = 0;
   switch (joint.kind) {
     case JointKind::ball:
       lock_position(body1, body2, X_WJ1, X_WJ2.p, 0, 3, dt_s, rows);
-      locked = rows.count;
       add_cone(state, X_WJ1, X_WJ2, dt_s, rows);
       break;
     case JointKind::hinge: {
@@ -137,7 +133,6 @@ void joint_rows(const state::JointDescription& joint, const state::JointState& s
         lock_thread(body1, body2, X_WJ1, now, state.pitch_m_per_rad, dt_s, rows);
       }
       lock_rotation(X_WJ1.R, error_W, false, dt_s, rows);
-      locked = rows.count;
       const Row axis_row = joint_axis_row(joint, body1, body2, now);
       add_friction(axis_row, state, dt_s, rows);
       add_limits(axis_row, state, now, kMaxAngularCorrection, dt_s, rows);
@@ -147,18 +142,12 @@ void joint_rows(const state::JointDescription& joint, const state::JointState& s
       const Vec3 error_W = rotation_vector(X_WJ1.R * X_WJ2.R.conjugate());
       lock_position(body1, body2, X_WJ1, X_WJ2.p, 1, 3, dt_s, rows);
       lock_rotation(X_WJ1.R, error_W, true, dt_s, rows);
-      locked = rows.count;
       const Row axis_row = joint_axis_row(joint, body1, body2, now);
       add_friction(axis_row, state, dt_s, rows);
       add_limits(axis_row, state, now, kMaxLinearCorrection, dt_s, rows);
       break;
     }
   }
-  // The axis goes along as one row more: it has no influence on the others.
-  const bool wants_axis = axis != nullptr && joint.kind != JointKind::ball;
-  if (wants_axis) rows.add(joint_axis_row(joint, body1, body2, now));
-  decouple(body1, body2, locked, rows);
-  if (wants_axis) *axis = rows.rows[--rows.count];
 }
 
 }  // namespace mechane::dynamics

@@ -22,12 +22,11 @@ struct JointMeasure {
 /// Overwrites `rows` with what the joint asks for in a step of dt_s: its lock, its friction and resistance, its limits. Position errors
 /// are taken back at a fifth per step, 1 m/s and 5 rad/s at most. Limits stop exactly: the row lets the joint reach its limit in this
 /// step and no further. A hinge with a pitch is a screw: instead of staying where it is along its axis it moves as it turns. A ball with
-/// a cone has one row, at the cone's edge. `axis`, where asked for, becomes the row of the joint's velocity, free of the joint's locks as
-/// decouple() leaves it; a ball has none.
+/// a cone has one row, at the cone's edge. `now` is the joint measured at these frames.
 void joint_rows(const state::JointDescription& joint, const state::JointState& state, const Frame& body1,
-                const Frame& body2, double dt_s, RowSet& rows, Row* axis = nullptr) noexcept;
+                const Frame& body2, const JointMeasure& now, double dt_s, RowSet& rows) noexcept;
 
-/// The row of a joint's velocity as it is; without terms for a ball.
+/// The row of a joint's velocity; without terms for a ball.
 [[nodiscard]] Row joint_axis_row(const state::JointDescription& joint, const Frame& body1, const Frame& body2,
                                  const JointMeasure& now) noexcept;
 

@@ -20,7 +20,8 @@ struct Frame {
 };
 
 /// One row: `target` is the wanted value of n.(v2 - v1) + a2.w2 - a1.w1, where v and w are velocities of the centres of mass after
-/// the step. The solver finds the impulse (N s, N m s) along the row, within its limits, that brings it there.
+/// the step. The solver finds the impulse (N s, N m s) along the row, within its limits, that brings it there; where the row is soft,
+/// all but `softness` times the impulse.
 struct Row {
   Vec3 n_W = Vec3::Zero();
   Vec3 a1_W = Vec3::Zero();
@@ -28,11 +29,13 @@ struct Row {
   double target = 0;
   double min_impulse = -std::numeric_limits<double>::infinity();
   double max_impulse = std::numeric_limits<double>::infinity();
+  double softness = 0;  ///< 1/kg, 1/(kg m^2)
 };
 
 /// The rows of one joint or grasp.
 struct RowSet {
-  std::array<Row, 9> rows{};
+  static constexpr std::size_t kMost = 9;
+  std::array<Row, kMost> rows{};
   std::size_t count = 0;
 
   Row& add(const Row& row) noexcept { return rows[count++] = row; }
@@ -75,11 +78,5 @@ inline constexpr double kMaxAngularCorrection = 5.0;  ///< rad/s
 [[nodiscard]] inline double limit_speed(double error, double dt_s, double max_speed) noexcept {
   return error > 0 ? correction(error, dt_s, max_speed) : error / dt_s;
 }
-
-/// Combines rows so that they do not disturb each other: the first `locked` rows, whose impulses have no limits, become orthonormal
-/// in the bodies' inverse mass; what remains of the others is orthogonal to those. The solutions and the others' impulses stay the
-/// same, but a solver that goes row by row finds a joint's in one sweep, however far its bodies' centres of mass are.
-/// Leaves the rows as they are where neither body moves or where rows repeat each other.
-void decouple(const Frame& body1, const Frame& body2, std::size_t locked, RowSet& rows) noexcept;
 
 }  // namespace mechane::dynamics

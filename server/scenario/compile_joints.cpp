@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "server/scenario/compilation.hpp"
+#include "server/state/limits.hpp"
 
 namespace mechane::scenario {
 namespace {
@@ -116,6 +117,10 @@ void compile_joint(Compilation& c, x3d::NodeId id, state::JointKind kind) {
   const Pose X_WB1 = joint.body1 ? c.world.bodies[joint.body1.index()].X_WB : Pose{};
   joint.X_B1J = X_WB1.inverse() * X_WJ;
   joint.X_B2J = c.world.bodies[joint.body2.index()].X_WB.inverse() * X_WJ;
+  if (c.world.joints.size() == state::kMaxJoints)
+    attributes.error(ErrorCode::too_large,
+                     fmt::format("a world takes {} joints, and this is one more", state::kMaxJoints),
+                     "make one body of those that do not move on each other, or divide the exhibit");
   c.world.joints.push_back(std::move(joint));
 }
 

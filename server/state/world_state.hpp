@@ -189,7 +189,7 @@ class MemoryLayout {
 };
 
 /// Which fields are hashed and saved, and by which physics they were computed. Journals and snapshots say theirs; they are compared and
-/// read over these fields, and journals are replayed with the physics of their time. Powers of two: a flipped bit of a file does not make
+/// read over these fields, and journals are replayed with the forces on hands of their time. Powers of two: a flipped bit of a file does not make
 /// another version of one.
 enum class StateVersion : std::uint32_t {
   without_governors = 1,  ///< journals of version 1
@@ -198,8 +198,11 @@ enum class StateVersion : std::uint32_t {
   with_sides = 8,         ///< thin walls hold tips, and their normals are smooth
   with_builds = 16,       ///< hands are right or left, and their fingers have lengths of their own
   with_corners = 32,  ///< thin walls hold palms, corners of them hold by both; carried things have their whole weight
+  with_direct_joints = 64,  ///< joints, couplings and grips are solved directly, no longer by sweeps alone
 };
-inline constexpr StateVersion kStateVersion = StateVersion::with_corners;
+inline constexpr StateVersion kStateVersion = StateVersion::with_direct_joints;
+/// The first whose bodies move as today's to the bit. Older journals replay closely, but their hashes cannot be compared.
+inline constexpr StateVersion kSameMotion = StateVersion::with_direct_joints;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {
   return std::has_single_bit(static_cast<std::uint32_t>(version)) && version <= kStateVersion;
 }

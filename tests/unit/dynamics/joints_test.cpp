@@ -224,5 +224,23 @@ TEST(Create, RefusesWhatCannotMove) {
   EXPECT_THAT(error_of(world), is_error(ErrorCode::missing, 0, {"joint JOINT"}));
 }
 
+TEST(Joints, MoreThanTheSolverHasTablesForAreRefused) {
+  state::WorldDescription out;
+  out.bodies = {fixed_body("FRAME"), body("WHEEL", 1)};
+  out.joints.assign(state::kMaxJoints + 1, joint(JointKind::hinge));
+  const state::WorldState state(out);
+  using mechane::test::is_error;
+  const auto made = DynamicsWorld::create(out, state);
+  ASSERT_FALSE(made);
+  EXPECT_THAT(made.error(), is_error(ErrorCode::too_large, 0, {"257", "256"}));
+}
+
+TEST(Joints, BodiesThatNothingTiesTakeNoTables) {
+  state::WorldDescription out;
+  out.bodies.assign(20'000, body("GRAIN", 1));  // tables over all pairs would take 115 GB
+  Scene scene(out);
+  scene.run(kStep);
+}
+
 }  // namespace
 }  // namespace mechane::dynamics::test

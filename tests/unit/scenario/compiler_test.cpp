@@ -298,5 +298,14 @@ TEST(Compiler, SlidersAndBallsStandWhereTheirBodiesDo) {
   EXPECT_EQ(ball.X_B1J.p, Vec3(1, 2, 3));
 }
 
+TEST(CompileJoints, OneMoreThanAWorldTakesIsRefusedAtItsLine) {
+  std::string text = "<X3D version='4.0'><Scene><RigidBodyCollection><RigidBody DEF='A'/>\n";
+  for (std::size_t i = 0; i <= state::kMaxJoints; ++i)
+    text += "<BallJoint><RigidBody containerField='body1' USE='A'/></BallJoint>\n";
+  const Outcome outcome = compile_text(text + "</RigidBodyCollection></Scene></X3D>");
+  EXPECT_FALSE(outcome.world);
+  static_cast<void>(outcome.find(ErrorCode::too_large, static_cast<int>(state::kMaxJoints) + 2, "256 joints"));
+}
+
 }  // namespace
 }  // namespace mechane::scenario
