@@ -81,6 +81,8 @@ class HapticLoop {
   /// Where the hand was in the last tick.
   [[nodiscard]] const client::HandSample& hand() const noexcept { return hand_; }
   [[nodiscard]] bool holding() const noexcept { return answer_.holding; }
+  /// The path of what it holds.
+  [[nodiscard]] const hand::HeldPath& held() const noexcept { return answer_.held; }
   /// The hand overlaps something that it does not hold.
   [[nodiscard]] bool touches() const noexcept { return answer_.touches(); }
   /// The device after the last tick, for visitors. Any thread.

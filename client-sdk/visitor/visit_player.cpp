@@ -116,7 +116,11 @@ PlayerConfig fitted(PlayerConfig config, const haptic::VirtualChoice& device) {
 HandSense sense_hand(const haptic::SimulatedDevice& device, const haptic::HapticLoop& loop) {
   constexpr double kSeenTouchN = 1;
   const double felt_n = device.renders() ? device.force_W().norm() : loop.touches() ? kSeenTouchN : 0;
-  return {loop.holding(), felt_n, device.force_W(), loop.hand().X_WH.p};
+  HandSense sense{loop.holding(), felt_n, device.force_W(), loop.hand().X_WH.p, {}};
+  const hand::HeldPath& held = loop.held();
+  const bool has_path = held.kind == hand::HeldPath::Kind::circle || held.kind == hand::HeldPath::Kind::line;
+  if (sense.holding && has_path) sense.p_HG = held.p_HG;
+  return sense;
 }
 
 double minimum_jerk(double s) {
@@ -135,7 +139,7 @@ VisitPlayer::VisitPlayer(const state::WorldDescription& description, const state
 
 void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, const HandSense& hand) {
   if (finished()) return;
-  if (!begun_) begin_move(X_WB);
+  if (!begun_) begin_move(X_WB, hand);
   if (waits(X_WB, hand.holding, dt_s)) return;
   time_s_ += dt_s;
   last_dt_s_ = dt_s;
@@ -149,7 +153,7 @@ void VisitPlayer::advance(double dt_s, std::span<const Pose> X_WB, const HandSen
   if (again) fetch_again();
 }
 
-void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
+void VisitPlayer::begin_move(std::span<const Pose> X_WB, const HandSense& hand) {
   const VisitMove& move = visit_.moves[index_];
   begun_ = true;
   ok_ = true;
@@ -178,7 +182,8 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB) {
     const state::JointDescription& joint = description_.joints[move.joint.index()];
     seen_rad_ = 0;
     swing_from_rad_ = seen_at_rad_ = joint_angle(joint, X_WB);
-    arm_J_ = frame_of(joint).inverse() * (X_WH_start_ * p_HG_);
+    p_HG_W_ = X_WH_start_.R * hand.p_HG.value_or(p_HG_);
+    arm_J_ = frame_of(joint).inverse() * Vec3(X_WH_start_.p + p_HG_W_);
   } else if (move.kind == VisitMove::Kind::grasp) {
     intent_.grasp_intent = 1;
     grasp_ = {move.body, std::numeric_limits<double>::infinity(), false};
@@ -351,18 +356,17 @@ Pose VisitPlayer::frame_of(const state::JointDescription& joint) const {
   return description_.bodies[joint.body1.index()].X_WB * joint.X_B1J;
 }
 
-/// The hand goes around the joint's axis; the wrist keeps its direction, and the handle turns in the hand. How far from the axis, and
-/// where along it, the handle that it holds tells by its force.
+/// The hand goes around the joint's axis with the handle in the place where it feels it; the wrist keeps its direction, and the handle
+/// turns in the hand. How far from the axis, and where along it, the handle that it holds tells by its force.
 void VisitPlayer::go_round(JointId id, double angle_rad, const HandSense& hand) {
   const Pose X_WJ = frame_of(description_.joints[id.index()]);
-  const Vec3 p_HG_W = X_WH_start_.R * p_HG_;
   if (hand.holding) {
-    const Vec3 grip_J = X_WJ.inverse() * Vec3(hand.p_WH + p_HG_W);
+    const Vec3 grip_J = X_WJ.inverse() * Vec3(hand.p_WH + p_HG_W_);
     const Vec3 gives_way_J = kGivesWayMPerNs * last_dt_s_ * X_WJ.inverse().rotate(hand.f_W);
     arm_J_.head<2>() += gives_way_J.head<2>().dot(grip_J.head<2>().normalized()) * arm_J_.head<2>().normalized();
     arm_J_.z() += gives_way_J.z();
   }
-  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J_) - p_HG_W;
+  intent_.X_WH.p = X_WJ * Vec3(Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()) * arm_J_) - p_HG_W_;
 }
 
 void VisitPlayer::note_grasp(std::span<const Pose> X_WB, double felt_n) {

@@ -47,6 +47,8 @@ struct HandSense {
   double felt_n = 0;         ///< how strong its touch is
   Vec3 f_W = Vec3::Zero();   ///< the force on it, N; zero where a device renders none
   Vec3 p_WH = Vec3::Zero();  ///< where it is: not where it is intended, once something resists it
+  std::optional<Vec3>
+      p_HG{};  ///< where in the hand it holds a handle, in the hand's frame; none where it holds nothing, or no handle
 };
 
 /// One visit, from rest to rest. Deterministic for given inputs. One thread; advance() allocates only when a move ends.
@@ -71,7 +73,7 @@ class VisitPlayer {
   [[nodiscard]] std::span<const MoveResult> results() const { return results_; }
 
  private:
-  void begin_move(std::span<const Pose> X_WB);
+  void begin_move(std::span<const Pose> X_WB, const HandSense& hand);
   [[nodiscard]] double to_grip_m(std::span<const Pose> X_WB) const;
   [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding, double dt_s);
   /// Returns whether it stops beside the thing, and goes the rest of the way slowly, closing.
@@ -124,6 +126,7 @@ class VisitPlayer {
   Pose X_WH_goal_;
   Vec3 p_WH_caught_ = Vec3::Zero();  // where the hand was when it first held something in this move
   Vec3 arm_J_ = Vec3::Zero();        // from the joint of a turn or swing to the grip, where this move begins
+  Vec3 p_HG_W_ = Vec3::Zero();       // from the hand to its grip, in this turn or swing
   double turned_rad_ = 0;            // angle of a turn, or phase of a swing
   double swing_from_rad_ = 0;        // the joint's angle at the start of the swing
   Vec3 p_BG_ = Vec3::Zero();         // the grip of the last reach, in the body

@@ -1,4 +1,6 @@
 // Archimedes' screw, played by its own visits; and what fails, and where, once something is broken.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/exhibit_play.hpp"
@@ -24,6 +26,12 @@ TEST(ArchimedesScrewVisits, TurningRaisesWaterAndGivesOneHash) {
   EXPECT_EQ(visit.steps.size(), 3u) << visit;
   EXPECT_GT(visit.quantities.at("basin"), 15) << visit;
   EXPECT_EQ(screw().play("turning").state_hash, visit.state_hash);
+}
+
+TEST(ArchimedesScrewVisits, AWholeHandKeepsTheCrankThroughAllItsTurns) {
+  const test::PlayedVisit visit = screw().play_with_glove("turning");
+  EXPECT_TRUE(visit.done) << visit;
+  EXPECT_TRUE(std::ranges::none_of(visit.moves, test::went_wrong)) << visit;
 }
 
 TEST(ArchimedesScrewVisits, WithoutItsAxleItIsHeldButDoesNotTurn) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -34,7 +35,7 @@ state::WorldDescription lever_world() {
 
 /// A millisecond in which the hand is where it is intended.
 void step(VisitPlayer& player, std::span<const Pose> X_WB, bool holding, double felt_n) {
-  player.advance(0.001, X_WB, {holding, felt_n, Vec3::Zero(), player.intent().X_WH.p});
+  player.advance(0.001, X_WB, {holding, felt_n, Vec3::Zero(), player.intent().X_WH.p, {}});
 }
 
 Pose lever_at(double angle_rad) {
@@ -313,7 +314,7 @@ TEST(VisitPlayerTurn, AHandThatSeesDoesNotWaitForEverForWhatIsStuck) {
 HandSense held_off(const VisitPlayer& player, const Vec3& p_WH) {
   constexpr double kStiffness_n_per_m = 300;
   const Vec3 f_W = kStiffness_n_per_m * (p_WH - player.intent().X_WH.p);
-  return {true, f_W.norm(), f_W, p_WH};
+  return {true, f_W.norm(), f_W, p_WH, {}};
 }
 
 TEST(VisitPlayerGrasp, AHandThatHasCaughtAThingPressesNoMore) {
@@ -343,6 +344,27 @@ TEST(VisitPlayerTurn, AHandleThatGoesRoundKeepsTheHandOnItsCircle) {
       across_m = (player.intent().X_WH.p - lever_at(angle_rad) * Vec3(kArmM + wider_m, 0, 0.01)).norm();
     }
     EXPECT_LT(across_m, 1e-4) << wider_m;
+  }
+}
+
+/// A hand closes as soon as it feels something, so the handle may lie anywhere in it. Taken to lie in one place of the hand, it would be
+/// twice as far off its way after half a turn.
+RC_GTEST_PROP(VisitPlayerTurn, AHandleGoesRoundWhereverInTheHandItLies, ()) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = turning(*rc::gen::element(1, -1));
+  const auto within_5_cm = [] { return 0.01 * *rc::gen::inRange(-5, 6); };
+  const Vec3 p_HG(within_5_cm(), within_5_cm(), within_5_cm());
+  VisitPlayer player(world, visit, whole_hand_at(Vec3(-0.7, 0.9, 0)));
+  double angle_rad = 0, radius_m = 0;
+  while (player.results().size() < 3) {
+    const bool held = player.results().size() == 2;
+    const HandSense sense{held, 0, Vec3::Zero(), player.intent().X_WH.p, held ? std::optional(p_HG) : std::nullopt};
+    player.advance(0.001, std::vector<Pose>{Pose{}, lever_at(angle_rad)}, sense);
+    if (!held) continue;
+    const Vec3 arm = player.intent().X_WH * p_HG - lever_at(0).p;
+    if (radius_m == 0) radius_m = arm.head<2>().norm();
+    angle_rad = std::atan2(arm.y(), arm.x());
+    RC_ASSERT(std::abs(arm.head<2>().norm() - radius_m) < 1e-9);
   }
 }
 
