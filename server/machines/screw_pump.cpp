@@ -26,6 +26,7 @@ namespace mechane::machines {
 namespace {
 
 constexpr double kTightRate_rad_s = 2.0 * 2 * kPi / 60;  // above it buckets do not leak
+constexpr double kStill_rad_s = 1e-9;                    // a slower screw stands: the rest is rounding
 constexpr double kBackBlend_rad_s = 0.2;                 // over this range the load changes from forwards to backwards
 constexpr double kEventPeriod_s = 0.5;
 constexpr double kEventLeast_m3 = 1e-5;  // a cup's drop is not an event
@@ -71,7 +72,8 @@ class ScrewPump final : public Machine {
 
   void run(state::WorldState& state, double dt_s) const noexcept override {
     state::JointState& joint = state[s_.joint];
-    const double rate = joint.enabled ? s_.direction * joint.velocity : 0;  // rad/s, > 0 lifts
+    const bool turns = joint.enabled && std::abs(joint.velocity) > kStill_rad_s;
+    const double rate = turns ? s_.direction * joint.velocity : 0;  // rad/s, > 0 lifts
     BucketTrain train(std::span(state.memory).subspan(first_bucket_, s_.buckets + 1), state.memory[phase_],
                       s_.volume_per_turn_m3 / s_.buckets_per_turn);
     const TrainFlow flow = train.move(rate * dt_s / (2 * kPi) * s_.buckets_per_turn);

@@ -172,6 +172,14 @@ TEST(ScrewPump, StandingStillLeaksSlowly) {
   EXPECT_EQ(pump.state->joints[0].load, 0);
 }
 
+/// What a solver leaves of the speed of a screw at rest. Going back through no way at all would bring a whole bucket to the river.
+TEST(ScrewPump, ThatTremblesByRoundingDrawsNoWater) {
+  Pump pump;
+  for (const double rate_rad_s : {-1e-17, 1e-17, -1e-30, 1e-30})
+    pump.turn(rate_rad_s, kStep);
+  EXPECT_EQ(pump.value("filled"), 0);
+}
+
 TEST(ScrewPump, TheBasinOverflowsAtItsRimAndSaysSoTwiceASecond) {
   state::WorldDescription world = screw_world();
   world.machines[0].parameters["basinStart"] = std::vector<double>{80};
