@@ -71,7 +71,8 @@ void Mechanism::clear() noexcept {
 std::size_t Mechanism::add(const MechanismRow& row) noexcept {
   MECHANE_ASSERT(rows_.size() < rows_.capacity());
   rows_.push_back(row);
-  solved_.emplace_back().first_term = terms_.size();
+  Solved& solved = solved_.emplace_back();
+  solved.first_term = solved.end_term = terms_.size();
   return rows_.size() - 1;
 }
 
@@ -89,6 +90,7 @@ void Mechanism::add_term(std::size_t body, const Vec3& n_W, const Vec3& a_W, std
   }
   MECHANE_ASSERT(terms_.size() < terms_.capacity());
   terms_.push_back({body, n_W, a_W, v_per_impulse, w_per_impulse});
+  solved_.back().end_term = terms_.size();
 }
 
 void Mechanism::add_terms(const Row& row, std::size_t body1, std::size_t body2, double factor,
@@ -104,12 +106,6 @@ std::size_t Mechanism::add_row(const Row& row, std::size_t body1, std::size_t bo
       add({row.target, equality ? RowLimit::none : RowLimit::range, 0, row.min_impulse, row.max_impulse, row.softness});
   add_terms(row, body1, body2, 1, frames);
   return index;
-}
-
-std::span<const Mechanism::Term> Mechanism::terms_of(std::size_t row) const noexcept {
-  const std::size_t begin = solved_[row].first_term;
-  const std::size_t end = row + 1 < solved_.size() ? solved_[row + 1].first_term : terms_.size();
-  return {terms_.data() + begin, end - begin};
 }
 
 /// How much row a's value changes by an impulse of 1 along row b.
@@ -152,6 +148,9 @@ void Mechanism::collect(std::size_t from) noexcept {
       end_of_[of_row] = std::max({end_of_[of_row], end_of_[other], equality ? equal_.size() : 0});
     }
   }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!terms_of(i).empty()) solved_[i].group = group_of(terms_of(i).front().body);
+  }
 }
 
 /// Makes the row's coefficients over the first `before` equalities, and returns what is left of its response without them.
@@ -160,11 +159,15 @@ double Mechanism::eliminate(std::size_t row, std::size_t before) noexcept {
   own.first = before;
   for (const Term& term : terms_of(row))
     own.first = std::min(own.first, first_of_[term.body]);
-  own.end = terms_of(row).empty() ? before : std::min(before, end_of_[group_of(terms_of(row).front().body)]);
+  own.end = own.group == kGround ? before : std::min(before, end_of_[own.group]);
   double* of_row = factor_of(row);
   double left = own.response;
   for (std::size_t j = own.first; j < own.end; ++j) {
     const Solved& other = solved_[equal_[j]];
+    if (other.group != own.group) {
+      of_row[j] = 0;  // they share nothing
+      continue;
+    }
     const double* of_other = factor_of(equal_[j]);
     const double rest = shared(row, equal_[j]) - product(of_row, of_other, std::max(own.first, other.first), j);
     of_row[j] = rest * other.inverse;
@@ -178,6 +181,8 @@ void Mechanism::fill_matrix(std::size_t place) noexcept {
   const std::size_t row = limited_[place];
   for (std::size_t other = 0; other < place; ++other) {
     const Solved &own = solved_[row], &of_other = solved_[limited_[other]];
+    matrix_of(place)[other] = matrix_of(other)[place] = 0;
+    if (of_other.group != own.group) continue;
     const double value =
         shared(row, limited_[other]) - product(factor_of(row), factor_of(limited_[other]),
                                                std::max(own.first, of_other.first), std::min(own.end, of_other.end));

@@ -85,16 +85,20 @@ class Mechanism {
   /// What factor() and solve() find for a row.
   struct Solved {
     std::size_t first_term = 0;
-    std::size_t first = 0;  // equality in whose column its row of the factor begins, and
-    std::size_t end = 0;    // before which it ends
-    std::size_t place = 0;  // among the limited
-    double response = 0;    // of the row's value to an impulse of 1
-    double inverse = 0;     // of the factor's diagonal; 0: left out
-    double wanted = 0;      // the part of the target that the velocities do not meet
+    std::size_t end_term = 0;
+    std::size_t group = kGround;  // the body that stands for those that rows tie to its own; kGround: it moves none
+    std::size_t first = 0;        // equality in whose column its row of the factor begins, and
+    std::size_t end = 0;          // before which it ends
+    std::size_t place = 0;        // among the limited
+    double response = 0;          // of the row's value to an impulse of 1
+    double inverse = 0;           // of the factor's diagonal; 0: left out
+    double wanted = 0;            // the part of the target that the velocities do not meet
     double impulse = 0;
   };
 
-  [[nodiscard]] std::span<const Term> terms_of(std::size_t row) const noexcept;
+  [[nodiscard]] std::span<const Term> terms_of(std::size_t row) const noexcept {
+    return {terms_.data() + solved_[row].first_term, terms_.data() + solved_[row].end_term};
+  }
   [[nodiscard]] double* factor_of(std::size_t row) noexcept { return &factor_[row * rows_.capacity()]; }
   [[nodiscard]] double* matrix_of(std::size_t place) noexcept { return &matrix_[place * rows_.capacity()]; }
   [[nodiscard]] double shared(std::size_t a, std::size_t b) const noexcept;
