@@ -31,8 +31,8 @@ struct ReplayResult {
   [[nodiscard]] bool same() const { return !first_difference && hashes_compared > 0 && whole(); }
 };
 
-/// With the forces on hands of the journal's time (state::StateVersion). Where bodies moved otherwise then, hashes are not compared. Errors: conflict (the journal was recorded with another form of the
-/// scenario), or the snapshot in it cannot be read.
+/// With the forces on hands of the journal's time (state::StateVersion). Where bodies moved otherwise then, hashes are not compared.
+/// Errors: conflict (the journal was recorded with another form of the scenario), or the snapshot in it cannot be read.
 [[nodiscard]] Expected<ReplayResult> replay(record::JournalReader& journal,
                                             const std::shared_ptr<const state::WorldDescription>& description,
                                             world::WorldConfig config, const ReplayOptions& options);

@@ -189,8 +189,8 @@ class MemoryLayout {
 };
 
 /// Which fields are hashed and saved, and by which physics they were computed. Journals and snapshots say theirs; they are compared and
-/// read over these fields, and journals are replayed with the forces on hands of their time. Powers of two: a flipped bit of a file does not make
-/// another version of one.
+/// read over these fields, and journals are replayed with the forces on hands of their time. Powers of two: a flipped bit of a file does
+/// not make another version of one.
 enum class StateVersion : std::uint32_t {
   without_governors = 1,  ///< journals of version 1
   with_governors = 2,     ///< and with the age of each user's last sample
