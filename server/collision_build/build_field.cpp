@@ -162,17 +162,17 @@ DistanceField::Leaf fit_smooth(const Samples& samples, double edge_m, double blo
     const double share = tolerance_m / s.tolerance_m;
     const double weight = s.distance_m > kNearAir * edge_m ? kFarWeight : share * share;
     const Terms t = terms_at(s.p_B);
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(t, weight);
+    normal.noalias() += weight * t * t.transpose();
     right += weight * s.distance_m * t;
     if (!s.on_face) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const Terms slope = slopes_at(s.p_B, axis);
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(slope, kSlopeWeight * weight);
+      normal.noalias() += kSlopeWeight * weight * slope * slope.transpose();
       right += kSlopeWeight * weight * edge_m * s.n_B[axis] * slope;
     }
   }
   normal.diagonal().array() += kRidge;
-  const Terms x = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right) / block_m;
+  const Terms x = normal.ldlt().solve(right) / block_m;
   std::array<double, 8> corners{};
   Eigen::Map<Eigen::Matrix<double, 8, 1>>(corners.data()) = x.head<8>();
   return DistanceField::Leaf::smooth(corners, x.tail<3>());
@@ -227,8 +227,8 @@ Vec3 slope_of(const Samples& samples, double block_m) {
 /// The n-th of so many, x fastest.
 Vec3 low_of(const collision::Node& count, std::size_t n) {
   const auto at = static_cast<int>(n);
-  return {static_cast<double>(at % count[0]), static_cast<double>(at / count[0] % count[1]),
-          static_cast<double>(at / count[0] / count[1])};
+  const int row = at / count[0];
+  return Eigen::Vector3i(at % count[0], row % count[1], row / count[1]).cast<double>();
 }
 
 /// The plane of each block, x fastest.
@@ -431,7 +431,9 @@ struct Cubes {
       count[i] = (grid.blocks[i] + edge() - 1) / edge();
   }
   [[nodiscard]] int edge() const { return 1 << span; }
-  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(count[0] * count[1] * count[2]); }
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(count[2]);
+  }
   [[nodiscard]] Cell cell(std::size_t n) const {
     return {edge() * low_of(count, n), static_cast<double>(edge()), -span};
   }

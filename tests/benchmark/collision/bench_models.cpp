@@ -11,6 +11,7 @@
 #include "server/collision_build/object_builder.hpp"
 #include "server/content/object_store.hpp"
 #include "server/geometry/mesh_check.hpp"
+#include "server/log/log.hpp"
 #include "tests/benchmark/bench_stats.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/models.hpp"
@@ -212,5 +213,6 @@ int main(int argc, char** argv) {
   app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")
       ->check(CLI::Range(1, 100'000));
   CLI11_PARSE(app, argc, argv);
+  mechane::log::start("bench_models", mechane::log::Level::warning);
   return mechane::benchmark::main_of(config);
 }

@@ -106,7 +106,7 @@ struct OurObjects {
   double build_s = 0;
 };
 
-/// `error_share`: of an object's diagonal, what the 99th percentile of a depth's error may be.
+/// `error_share`: of an object's diagonal, what the 99th percentile of a depth's error may be; what counts as missed follows.
 [[nodiscard]] std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps,
                                                            double error_share = kOurErrorShare);
 

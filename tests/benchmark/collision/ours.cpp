@@ -16,6 +16,7 @@ namespace {
 collision_build::BuildConfig config_for(const SceneObject& object, OurMaps maps, double error_share) {
   collision_build::BuildConfig config;
   config.parts = object.parts_O.empty() ? collision_build::Parts::decomposed : collision_build::Parts::as_given;
+  config.miss_share *= error_share / config.max_error_share;
   config.max_error_share = error_share;
   config.max_error_m = object.max_error_m;
   config.probe_depth_m = object.probe_depth_m;
