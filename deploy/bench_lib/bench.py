@@ -13,6 +13,7 @@ import against
 import aims
 import collision
 import display
+import fields
 import haptics
 import machine
 import path
@@ -21,7 +22,7 @@ from peers import Measured
 from plots import number
 
 ROOT = Path(__file__).resolve().parents[2]
-BENCHMARKS = {"path": path, "collision": collision, "haptics": haptics, "worlds": worlds, "display": display}
+BENCHMARKS = {"path": path, "collision": collision, "fields": fields, "haptics": haptics, "worlds": worlds, "display": display}
 
 
 @dataclass

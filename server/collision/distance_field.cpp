@@ -23,6 +23,8 @@ constexpr std::uint8_t kHasThree = 2;
 constexpr std::uint8_t kOuterConvex = 4;
 constexpr std::uint8_t kInnerConvex = 8;
 constexpr float kLeastScale = 1e-6F;
+constexpr std::uint32_t kSlotMask = (1U << kFieldSpanAt) - 1;  // of a leaf's word
+static_assert(DistanceField::kMaxSlots << 1 <= kSlotMask);
 
 /// A float32's upper half. Towards zero.
 std::uint16_t upper_half(float x) {
@@ -96,8 +98,12 @@ class WordCheck {
   /// How often a place under the word is halved; too often where a word is wrong.
   [[nodiscard]] int height(std::uint32_t word, std::size_t first_family = 0) const {
     if (word == 0) return 0;
+    if ((word & 1) == 0) {
+      const int span = static_cast<int>(word >> kFieldSpanAt);
+      const bool fits = span <= (first_family == 0 ? DistanceField::kMaxSpan : 0);  // a child spans nothing but itself
+      return fits && is_sound_leaf(data_, (word & kSlotMask) >> 1) ? 0 : kFieldLevels + 1;
+    }
     const std::size_t at = word >> 1;
-    if ((word & 1) == 0) return is_sound_leaf(data_, at) ? 0 : kFieldLevels + 1;
     if (at % kCount != 0 || at / kCount < first_family || at / kCount >= height_.size()) return kFieldLevels + 1;
     return height_[at / kCount] + 1;
   }

@@ -18,7 +18,8 @@ namespace mechane::collision {
 
 /// Signed distances (negative inside) to a surface in the part's frame Q. The box is divided into blocks. A block has a plane, which says
 /// from how far on a sphere needs no closer look, and a word: nothing (no point of it is inside), a leaf, or eight children (x fastest),
-/// which have words of their own. All lengths here are in edges of a block.
+/// which have words of their own. A leaf may span several blocks: a cube of 2^span along each edge, one of those into which the grid is
+/// divided from its lowest corner on. Each of them has its word. All lengths here are in edges of a block.
 class DistanceField {
  public:
   using Grid = DistanceBrick::Grid;
@@ -26,6 +27,7 @@ class DistanceField {
   /// float32. The second, where there are sheets: the corners of the second and the third.
   using Slot = std::array<std::uint8_t, 16>;
   static constexpr int kChildren = 8;
+  static constexpr int kMaxSpan = 3;
   static constexpr std::size_t kMaxSlots = 4U << 20;
 
   /// value_step v + slope_step slope . (place in the block - its middle): never more than the distance of a place outside, and at most 0
@@ -66,7 +68,9 @@ class DistanceField {
   explicit DistanceField(Data data);
   [[nodiscard]] static bool is_valid(const Data& data);
 
-  [[nodiscard]] static std::uint32_t leaf_word(std::size_t slot) { return static_cast<std::uint32_t>(slot << 1); }
+  [[nodiscard]] static std::uint32_t leaf_word(std::size_t slot, int span = 0) {
+    return static_cast<std::uint32_t>(slot << 1) | static_cast<std::uint32_t>(span) << kFieldSpanAt;
+  }
   [[nodiscard]] static std::uint32_t split_word(std::size_t child) {
     return static_cast<std::uint32_t>(child << 1 | 1);
   }

@@ -22,7 +22,6 @@ struct FieldKernels : FieldLeaves<Lanes> {
   using Base::load_points;
   using Base::load_quads;
   using Base::mad;
-  using Base::magnitude;
   using Base::select;
   using Base::shuffle;
   using Base::store;
@@ -67,8 +66,9 @@ struct FieldKernels : FieldLeaves<Lanes> {
     return {to_int(mad(low.z, layer, mad(low.y, row, low.x))), {u.x - low.x, u.y - low.y, u.z - low.z}};
   }
   static I is_in_box(const Place& at) {
-    const auto off = [](F f) { return magnitude(f - 0.5F); };
-    return greater(off(at.f.x), greater(off(at.f.y), off(at.f.z))) <= 0.5F;
+    const F least = lesser(at.f.x, lesser(at.f.y, at.f.z));
+    const F most = greater(at.f.x, greater(at.f.y, at.f.z));
+    return (least >= 0.0F) & (most < 1.0F);
   }
   /// Never more than the true distance, in blocks; see DistanceField::Plane.
   [[gnu::always_inline]] static F bound_at(const FieldView& map, const Place& at) {
@@ -78,6 +78,15 @@ struct FieldKernels : FieldLeaves<Lanes> {
     return mad(to_float(plane >> 21), all(kFieldValueStep), rise * kFieldSlopeStep);
   }
 
+  /// Where a place, in units of blocks, lies in what its block's word says of: a leaf of 2^span blocks, or the block itself.
+  [[gnu::always_inline]] static Point in_span(I word, const Point& u) {
+    const F share = reinterpret_cast<F>((127 - (word >> kFieldSpanAt)) << 23);  // 2^-span
+    const auto along = [&](F t) {
+      t = t * share;
+      return t - to_float(to_int(t));
+    };
+    return {along(u.x), along(u.y), along(u.z)};
+  }
   /// The leaf of a place, found from its block's word on down. `f` becomes the place in the leaf.
   [[gnu::always_inline]] static I leaf_of(const FieldView& map, I word, Point& f) {
     for (int level = 0; level < kFieldLevels; ++level) {
@@ -162,7 +171,7 @@ struct FieldKernels : FieldLeaves<Lanes> {
     return found;
   }
 
-  /// Points that may lie inside: places in their blocks, the blocks' words, numbers.
+  /// Points that may lie inside: places in units of blocks, the blocks' words, numbers.
   struct Candidates {
     static constexpr std::size_t kRoom = 4 * kFieldBatch + kLanes;
     alignas(64) std::uint32_t x[kRoom], y[kRoom], z[kRoom], word[kRoom], number[kRoom];
@@ -179,14 +188,15 @@ struct FieldKernels : FieldLeaves<Lanes> {
           return from + points.stride * (quad / 4) + std::size_t{4} * (quad % 4);
         });
       };
-      const Place place = place_of(map, transform(X, {of(points.x), of(points.y), of(points.z)}));
+      const Point u = transform(X, {of(points.x), of(points.y), of(points.z)});
+      const Place place = place_of(map, u);
       const I word = Lanes::template gather<8>(map.entries + 4, place.block);
       const I may = is_in_box(place) & (word != 0) & (bound_at(map, place) < map.slack);
       const LaneMask lanes = Lanes::mask_of(may) & lanes_left(count - at);
       if (lanes == 0) continue;
-      append(out.x + out.count, place.f.x, lanes);
-      append(out.y + out.count, place.f.y, lanes);
-      append(out.z + out.count, place.f.z, lanes);
+      append(out.x + out.count, u.x, lanes);
+      append(out.y + out.count, u.y, lanes);
+      append(out.z + out.count, u.z, lanes);
       append(out.word + out.count, word, lanes);
       append(out.number + out.count, numbers(quads + at), lanes);
       out.count += static_cast<std::size_t>(__builtin_popcount(lanes));
@@ -207,8 +217,9 @@ struct FieldKernels : FieldLeaves<Lanes> {
     for (std::size_t at = 0; at < some.count; at += kWidth) {
       const std::size_t left = some.count - at;
       const I used = lane_numbers() < static_cast<int>(left);
-      Point f{read<F>(some.x + at), read<F>(some.y + at), read<F>(some.z + at)};
-      const I leaf = leaf_of(map, read<I>(some.word + at) & used, f);
+      const I word = read<I>(some.word + at) & used;
+      Point f = in_span(word, {read<F>(some.x + at), read<F>(some.y + at), read<F>(some.z + at)});
+      const I leaf = leaf_of(map, word, f);
       const Slope s = told(map, leaf, f);
       const LaneMask inside = Lanes::mask_of(used & (leaf != 0) & (s.value < 0.0F));
       if (inside == 0) continue;
@@ -252,11 +263,13 @@ struct FieldKernels : FieldLeaves<Lanes> {
     Slope s;
   };
   [[gnu::always_inline]] static Told ask(const FieldView& map, const Point& p_Q) {
-    Place place = place_of(map, in_blocks(map, p_Q));
-    const I word = Lanes::template gather<8>(map.entries + 4, place.block);
+    const Point u = in_blocks(map, p_Q);
+    const Place place = place_of(map, u);
     const I may = is_in_box(place) & (bound_at(map, place) < map.slack);
-    const I leaf = leaf_of(map, word & may, place.f);
-    return {leaf != 0, told(map, leaf, place.f)};
+    const I word = Lanes::template gather<8>(map.entries + 4, place.block) & may;
+    Point f = in_span(word, u);
+    const I leaf = leaf_of(map, word, f);
+    return {leaf != 0, told(map, leaf, f)};
   }
   static LaneMask field_inside(const FieldView& map, const BlockTransform& X, const PointsView& points,
                                InsideBlock& out) noexcept {

@@ -109,7 +109,7 @@ struct FieldLeaves : KernelMath<Lanes> {
 
   /// What the leaf says at f: the distance in blocks, and its gradient in some unit. See DistanceField::Leaf for the bytes.
   [[gnu::always_inline]] static Slope told(const FieldView& map, I leaf, const Point& f) {
-    const I at = (leaf >> 1) << 4;
+    const I at = (leaf << 3) & ((1 << (kFieldSpanAt + 3)) - 16);  // sixteen bytes for each; without the span
     const Words slot = read_slots(map.slots, at);
     Slope s = trilinear(slot.w[0], slot.w[1], f);
     add_bubble(byte_of<0>(slot.w[2]), f.x, s.value, s.g.x);  // none where there are sheets

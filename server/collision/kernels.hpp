@@ -74,6 +74,7 @@ struct BrickView {
 };
 
 inline constexpr int kFieldLevels = 4;               ///< how often a block of a DistanceField may be halved
+inline constexpr int kFieldSpanAt = 24;              ///< the bit of a leaf's word from which on its span stands
 inline constexpr float kFieldValueStep = 1.0F / 64;  ///< of a bounding plane, in blocks
 inline constexpr float kFieldSlopeStep = 1.0F / 63;  ///< of its slopes
 inline constexpr std::size_t kFieldBatch = 256;      ///< quads that field_hits takes at once

@@ -335,10 +335,10 @@ Expected<Object> read_object(std::span<const std::byte> bytes) {
   }
   std::uint32_t version = 0;
   std::memcpy(&version, bytes.data() + kMagic.size(), sizeof version);
-  if (version != kPartFileVersion && version != kFieldFileVersion) {
+  if (version < kPartFileVersion || version > kFieldFileVersion) {
     return fail(ErrorCode::wrong_version,
                 "the part file has version " + std::to_string(version) + ", but this program reads versions " +
-                    std::to_string(kPartFileVersion) + " and " + std::to_string(kFieldFileVersion),
+                    std::to_string(kPartFileVersion) + " to " + std::to_string(kFieldFileVersion),
                 where, remedy);
   }
   const auto body = bytes.first(bytes.size() - kChecksumBytes);

@@ -12,10 +12,11 @@
 
 namespace mechane::collision {
 
-/// Raised with every change of the layout: a reader takes no other version, and the cache builds the object again.
+/// Raised with every change of the layout: a reader takes no older version, and the cache builds the object again.
 inline constexpr std::uint32_t kPartFileVersion = 3;
-/// Of a file that holds a DistanceField; the rest is as before, so that files without one stay what they were.
-inline constexpr std::uint32_t kFieldFileVersion = 4;
+/// Of a file that holds a DistanceField; the rest is as before, so that files without one stay what they were. In version 4 no leaf
+/// spans several blocks; otherwise it is the same, and is read.
+inline constexpr std::uint32_t kFieldFileVersion = 5;
 
 [[nodiscard]] std::vector<std::byte> write_object(const Object& object);
 

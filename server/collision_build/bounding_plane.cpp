@@ -11,6 +11,7 @@ using Plane = collision::DistanceField::Plane;
 
 constexpr double kHalfDiagonal = 0.8661;  // of a block, rounded up
 constexpr double kRounding = 1e-3;        // of a block: more than a kernel's float32 can be wrong by
+constexpr std::size_t kFewFacets = 8;     // that are not divided further
 constexpr int kLooks = 3;                 // places of the block from which a triangle is looked at
 constexpr int kLeans = 4;                 // directions that are tried between the plane's own and another
 constexpr auto kValueStep = static_cast<double>(collision::kFieldValueStep);
@@ -43,6 +44,29 @@ BoundingPlanes::BoundingPlanes(const geometry::Mesh& mesh_B) {
         std::max({(f.a - f.middle).squaredNorm(), (f.b - f.middle).squaredNorm(), (f.c - f.middle).squaredNorm()}));
     facets_.push_back(f);
   }
+  if (!facets_.empty()) grow(0, facets_.size());
+}
+
+void BoundingPlanes::grow(std::size_t begin, std::size_t end) {
+  const std::size_t at = tree_.size();
+  Branch branch{{}, begin, end, 0};
+  Eigen::AlignedBox3d middles;
+  for (std::size_t i = begin; i < end; ++i) {
+    for (const Vec3& corner : {facets_[i].a, facets_[i].b, facets_[i].c})
+      branch.box.extend(corner);
+    middles.extend(facets_[i].middle);
+  }
+  tree_.push_back(branch);
+  if (end - begin <= kFewFacets) return;
+  Eigen::Index axis = 0;
+  middles.sizes().maxCoeff(&axis);
+  const std::size_t half = begin + (end - begin) / 2;
+  const auto from = [&](std::size_t i) { return facets_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(from(begin), from(half), from(end),
+                   [&](const Facet& l, const Facet& r) { return l.middle[axis] < r.middle[axis]; });
+  grow(begin, half);
+  tree_[at].second = tree_.size();
+  grow(half, end);
 }
 
 /// How high the plane may lie for one triangle: the best of several directions u. Stops once it is `enough`.
@@ -92,11 +116,26 @@ Plane BoundingPlanes::make(const Vec3& middle, const Vec3& slope, double distanc
   const Vec3 g = slope_of(plane);
   const double rise = 0.5 * g.cwiseAbs().sum();
   double v = distance;  // the nearest triangle allows no more
-  for (const Facet& facet : facets_) {
-    // What is farther away than the plane is high anywhere in the block does not matter.
-    const double far = v + rise + kHalfDiagonal + facet.radius;
-    if (far <= 0 || (facet.middle - middle).squaredNorm() >= far * far) continue;
-    v = std::min(v, least(facet, middle, g, v));
+  // What is farther away than the plane is high anywhere in the block does not matter.
+  const auto is_far = [&](double square) {
+    const double far = v + rise + kHalfDiagonal;
+    return far <= 0 || square >= far * far;
+  };
+  std::vector<std::size_t> open;
+  if (!tree_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    const Branch& branch = tree_[at];
+    open.pop_back();
+    if (is_far(branch.box.squaredExteriorDistance(middle))) continue;
+    if (branch.second != 0) {
+      open.insert(open.end(), {branch.second, at + 1});
+      continue;
+    }
+    for (std::size_t i = branch.begin; i < branch.end; ++i) {
+      const double away = std::max((facets_[i].middle - middle).norm() - facets_[i].radius, 0.0);
+      if (!is_far(away * away)) v = std::min(v, least(facets_[i], middle, g, v));
+    }
   }
   plane.value = static_cast<int>(std::clamp(std::floor((v - kRounding) / kValueStep),
                                             -static_cast<double>(collision::DistanceField::kMaxValue),

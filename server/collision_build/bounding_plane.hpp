@@ -1,7 +1,7 @@
 // A plane that the distance to a mesh never goes below, block by block.
 #pragma once
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
 #include "server/base/math.hpp"
@@ -38,9 +38,18 @@ class BoundingPlanes {
     Vec3 middle;
     double radius = 0;
   };
+  /// Facets from `begin` on, in two halves down to a few. The first half comes right after it.
+  struct Branch {
+    Eigen::AlignedBox3d box;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::size_t second = 0;  // 0: it has no halves
+  };
+  void grow(std::size_t begin, std::size_t end);
   [[nodiscard]] static double least(const Facet& facet, const Vec3& middle, const Vec3& g, double enough);
 
   std::vector<Facet> facets_;
+  std::vector<Branch> tree_;
 };
 
 }  // namespace mechane::collision_build

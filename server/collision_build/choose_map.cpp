@@ -18,9 +18,10 @@ constexpr std::array<int, 11> kBrickBlocks = {2, 3, 4, 6, 8, 11, 16, 22, 32, 45,
 // The same for fields, whose blocks are halved where they must be.
 constexpr std::array<int, 10> kFieldBlocks = {6, 8, 10, 12, 15, 19, 24, 32, 45, 64};
 // A field may take this many times the bytes of the smallest that meets the budget: fine blocks cull better and are halved less often.
-constexpr double kFieldGrowth = 1.5;
+constexpr double kFieldGrowth = 1.35;
 // Of the lesser bound: the error that a block's level may have at its nodes, so that places between them stay within the budget too.
 constexpr double kBlockTolerance = 0.5;
+constexpr double kFieldTolerance = 0.4;  // the same for a field's leaves, of which a few places may err by more
 // Of a depth: by how much it may err deep down, as long as the budget allows. In a concave corner sheets give too small a depth.
 constexpr double kDepthShare = 0.2;
 // If a larger share is missed, no centre sees the whole part, and a finer radial map would not help.
@@ -87,7 +88,7 @@ class Trials {
       const std::size_t most = hopeless ? std::min(allowed_.at_most, kMostWithoutHope) : allowed_.at_most;
       const std::size_t limit = best_.met ? std::min(most, best_.map.bytes() - 1) : most;
       std::optional<collision::DistanceBrick> brick =
-          build_brick(solid_, skin_, frame_.X_OQ, grid, needs(), allowed_.must, limit);
+          build_brick(solid_, skin_, frame_.X_OQ, grid, needs(kBlockTolerance), allowed_.must, limit);
       if (!brick) return;  // a finer one is larger
       if (brick->bytes() <= allowed_.more_than) continue;
       trend = judge(std::move(*brick), n);
@@ -102,7 +103,7 @@ class Trials {
     for (const int n : kFieldBlocks) {
       const collision::DistanceField::Grid grid = brick_grid(frame_, n);
       if (!collision::DistanceBrick::is_valid(grid)) return;
-      auto field = build_field(source, grid, needs(), allowed_.must, most);
+      auto field = build_field(source, grid, needs(kFieldTolerance), allowed_.must, most);
       if (!field && best_.met) return;
       if (!field) continue;
       const auto bytes = static_cast<double>(field->bytes());
@@ -116,8 +117,8 @@ class Trials {
   [[nodiscard]] bool is_done() const { return !best_.map.empty() && (best_.met || probes_.empty()); }
 
  private:
-  [[nodiscard]] BrickNeeds needs() const {
-    return {budget_.probe_depth_m, kBlockTolerance * std::min(budget_.depth_p99_m, budget_.missed_m),
+  [[nodiscard]] BrickNeeds needs(double tolerance) const {
+    return {budget_.probe_depth_m, tolerance * std::min(budget_.depth_p99_m, budget_.missed_m),
             std::min(kDepthShare, budget_.depth_p99_m / budget_.probe_depth_m), budget_.missed_m};
   }
 

@@ -57,7 +57,9 @@ inline collision::DistanceField any_field(Random& random) {
       return collision::DistanceField::split_word(first);
     }
     const collision::DistanceField::Leaf leaf = any_leaf(random);
-    const std::uint32_t word = collision::DistanceField::leaf_word(data.slots.size());
+    const std::size_t spans = level == 0 ? collision::DistanceField::kMaxSpan + 1 : 1;
+    const auto span = static_cast<int>(random.below(spans));
+    const std::uint32_t word = collision::DistanceField::leaf_word(data.slots.size(), span);
     data.slots.push_back(leaf.first);
     if (leaf.has_sheets) data.slots.push_back(leaf.second);
     return word;

@@ -1,5 +1,6 @@
 // Contact queries of the product and of its peers, on one scene, in one run: equal answers first, then time and memory.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -20,6 +21,8 @@ namespace {
 
 constexpr const char* kOurs = "sqmap";
 constexpr const char* kField = "field";
+constexpr double kBrickErrorShare = 0.001;  // of an object's diagonal: what sizes the dense grids, whatever ours err by
+constexpr std::array<std::size_t, 4> kCrowds = {1, 10, 100, 1000};
 
 bool is_ours(const std::string& method) {
   return method.starts_with(kOurs) || method.starts_with(kField);
@@ -30,6 +33,8 @@ struct Config {
   std::size_t steps = 2000;
   std::size_t checked = 200;
   double budget_pct = 0.3;
+  double our_error_pct = 100 * kOurErrorShare;
+  bool crowds = false;
   TimingConfig timing;
   std::vector<std::string> methods = {
       kOurs,          "sqmap_avx512", "sqmap_avx2",     "sqmap_portable", "sqmap_nobrick", "sqmap_boxes", "field",
@@ -42,15 +47,16 @@ using Agreements = std::array<Agreement, kSceneObjects>;
 /// Our objects are built once for all instruction sets.
 class Workshop {
  public:
-  Workshop(const Scene& scene, Report& report) : scene_(scene), report_(report) {}
+  Workshop(const Scene& scene, double our_error_pct, Report& report)
+      : scene_(scene), our_error_pct_(our_error_pct), report_(report) {}
 
   /// Null where the machine lacks what it takes, which the report then says, or where there is no such method.
   MethodPtr make(const std::string& name, const Accuracy& accuracy) {
     if (is_ours(name)) return make_ours(name);
     if (name.starts_with("paper")) return make_paper(scene_, name, *objects_of(OurMaps::any));
-    if (name == "brick") return make_brick(scene_, accuracy, Simd::best);
-    if (name == "brick_lists") return make_brick(scene_, accuracy, Simd::best, NearLists::used);
-    if (name == "brick_scalar") return make_brick(scene_, accuracy, Simd::scalar);
+    if (name == "brick") return make_brick(scene_, of_bricks(accuracy), Simd::best);
+    if (name == "brick_lists") return make_brick(scene_, of_bricks(accuracy), Simd::best, NearLists::used);
+    if (name == "brick_scalar") return make_brick(scene_, of_bricks(accuracy), Simd::scalar);
     if (name == "openvdb") return make_openvdb(scene_, accuracy);
     if (name == "bt_sdf") return make_bt_sdf(scene_, accuracy);
     if (name == "embree") return make_embree(scene_);
@@ -59,8 +65,20 @@ class Workshop {
     if (name == "fcl_gjk") return make_fcl_gjk(scene_);
     return nullptr;
   }
+  /// Fields among more and more objects.
+  std::vector<MethodPtr> make_crowds() {
+    std::vector<MethodPtr> made;
+    for (const std::size_t objects : kCrowds)
+      made.push_back(make_crowd(scene_, "objects_us." + std::to_string(objects), objects_of(OurMaps::fields), objects));
+    return made;
+  }
 
  private:
+  [[nodiscard]] Accuracy of_bricks(Accuracy accuracy) const {
+    for (std::size_t k = 0; k < kSceneObjects; ++k)
+      accuracy.p99_m[k] = kBrickErrorShare * scene_.objects[k].diagonal_m;
+    return accuracy;
+  }
   MethodPtr make_ours(const std::string& name) {
     using collision::InstructionSet;
     if (name == kOurs) return with(name, OurMaps::any, collision::best_set());
@@ -85,11 +103,12 @@ class Workshop {
   }
   const std::shared_ptr<const OurObjects>& objects_of(OurMaps maps) {
     std::shared_ptr<const OurObjects>& built = built_[maps];
-    if (built == nullptr) built = build_ours(scene_, maps);
+    if (built == nullptr) built = build_ours(scene_, maps, our_error_pct_ / 100);
     return built;
   }
 
   const Scene& scene_;
+  double our_error_pct_;
   Report& report_;
   std::map<OurMaps, std::shared_ptr<const OurObjects>> built_;
 };
@@ -273,7 +292,7 @@ int main_of(const Config& config) {
   std::vector<MethodPtr> methods;
   Accuracy accuracy;
   const bool with_ours = std::find(config.methods.begin(), config.methods.end(), kOurs) != config.methods.end();
-  Workshop workshop(scene, report);
+  Workshop workshop(scene, config.our_error_pct, report);
   if (with_ours) methods.push_back(workshop.make(kOurs, accuracy));
   accuracy = accuracy_for(config, scene, oracle, with_ours ? methods.front().get() : nullptr);
   for (const std::string& name : config.methods) {
@@ -297,6 +316,12 @@ int main_of(const Config& config) {
     report_method(scene, *methods[m], report);
   }
   report_ratios(methods, times, report);
+  if (config.crowds) {
+    const std::vector<MethodPtr> crowds = workshop.make_crowds();
+    const std::vector<StepTimes> taken = time_methods(scene, crowds, {config.timing.rounds, 0});
+    for (std::size_t m = 0; m < crowds.size(); ++m)
+      report.metric(crowds[m]->name(), Quantiles(taken[m].all_passes_us()).quantile_us(0.5));
+  }
   report.note("steps from which the system took the core were timed again, at once: preempted_pct says how many");
   std::cout << report.text() << "\n";
   return 0;
@@ -319,6 +344,9 @@ int main(int argc, char** argv) {
   app.add_option("--budget", config.budget_pct,
                  "p99 depth error that a grid may have at most, % of the object's diagonal")
       ->check(CLI::Range(0.01, 10.0));
+  app.add_option("--error", config.our_error_pct, "p99 depth error that our maps may have at most, the same")
+      ->check(CLI::Range(0.01, 10.0));
+  app.add_flag("--crowds", config.crowds, "also fields among 1 to 1000 objects");
   app.add_option("--methods", config.methods, "which, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(mechane::benchmark::known_methods()));

@@ -98,19 +98,26 @@ enum class Simd { best, scalar };
 /// How our builder goes about it: as it is; without bricks; with boxes in place of the superquadrics; with fields.
 enum class OurMaps { any, radial_only, boxes, fields };
 
+inline constexpr double kOurErrorShare = 0.003;
+
 /// What it made of the scene's objects. Several methods may ask the same.
 struct OurObjects {
   std::vector<collision::Object> objects;
   double build_s = 0;
 };
 
-[[nodiscard]] std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps);
+/// `error_share`: of an object's diagonal, what the 99th percentile of a depth's error may be; what counts as missed follows.
+[[nodiscard]] std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps,
+                                                           double error_share = kOurErrorShare);
 
 /// Whether our query remembers what is near (collision::NearList).
 enum class NearLists { none, used };
 
 MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
                      collision::InstructionSet set, NearLists lists = NearLists::none);
+/// Fields among so many objects: the first is the scene's, and so on; those beyond the scene's are copies, side by side far off.
+MethodPtr make_crowd(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
+                     std::size_t objects);
 /// 'paper': the depth as published; 'paper_along': along the normal (see collision::PaperDepth).
 MethodPtr make_paper(const Scene& scene, const std::string& name, const OurObjects& built);
 MethodPtr make_brick(const Scene& scene, const Accuracy& accuracy, Simd simd, NearLists lists = NearLists::none);

@@ -1,6 +1,7 @@
 // The product's own query, through the collision room.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iostream>
 
 #include "server/base/assert.hpp"
@@ -12,9 +13,11 @@
 namespace mechane::benchmark {
 namespace {
 
-collision_build::BuildConfig config_for(const SceneObject& object, OurMaps maps) {
+collision_build::BuildConfig config_for(const SceneObject& object, OurMaps maps, double error_share) {
   collision_build::BuildConfig config;
   config.parts = object.parts_O.empty() ? collision_build::Parts::decomposed : collision_build::Parts::as_given;
+  config.miss_share *= error_share / config.max_error_share;
+  config.max_error_share = error_share;
   config.max_error_m = object.max_error_m;
   config.probe_depth_m = object.probe_depth_m;
   config.bricks = maps != OurMaps::radial_only;
@@ -30,17 +33,25 @@ std::size_t bytes_of(const collision::Object& object) {
   return sum;
 }
 
+// Where copies of the scene stand.
+constexpr double kRow_m = 2;
+constexpr double kInRow = 15;
+
 class Ours final : public Method {
  public:
   Ours(const Scene& scene, std::string name, std::shared_ptr<const OurObjects> built, collision::InstructionSet set,
-       NearLists lists)
+       NearLists lists, std::size_t objects)
       : name_(std::move(name)),
         kernels_(collision::kernels_of(set)),
         lists_(lists),
         found_(kHandPoints),
         built_(std::move(built)) {
-    for (std::size_t k = 0; k < built_->objects.size(); ++k) {
-      placed_.emplace_back(built_->objects[k], scene.objects[k].X_WO);
+    for (std::size_t k = 0; k < objects; ++k) {
+      const std::size_t of = k % built_->objects.size();
+      Pose X_WO = scene.objects[of].X_WO;
+      const auto copy = static_cast<double>(k / built_->objects.size());
+      if (copy > 0) X_WO.p += kRow_m * Vec3(std::fmod(copy, kInRow), 1 + std::floor(copy / kInRow), 0);
+      placed_.emplace_back(built_->objects[of], X_WO);
       near_.emplace_back(kHandPoints, kSegments);
     }
   }
@@ -104,13 +115,14 @@ class Ours final : public Method {
 
 }  // namespace
 
-std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps) {
+std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps, double error_share) {
   auto built = std::make_shared<OurObjects>();
   const Stopwatch watch;
   for (const SceneObject& object : scene.objects) {
     const std::array<geometry::NamedMesh, 1> whole = {{{object.name, object.mesh_O}}};
-    auto made = object.parts_O.empty() ? collision_build::build_object(whole, config_for(object, maps))
-                                       : collision_build::build_object(object.parts_O, config_for(object, maps));
+    auto made = object.parts_O.empty()
+                    ? collision_build::build_object(whole, config_for(object, maps, error_share))
+                    : collision_build::build_object(object.parts_O, config_for(object, maps, error_share));
     if (!made) std::cerr << object.name << ": " << made.error().what << "; " << made.error().remedy << "\n";
     MECHANE_ASSERT(made.has_value());
     built->objects.push_back(std::move(*made));
@@ -121,7 +133,13 @@ std::shared_ptr<const OurObjects> build_ours(const Scene& scene, OurMaps maps) {
 
 MethodPtr make_sqmap(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
                      collision::InstructionSet set, NearLists lists) {
-  return std::make_unique<Ours>(scene, name, std::move(built), set, lists);
+  const std::size_t objects = built->objects.size();
+  return std::make_unique<Ours>(scene, name, std::move(built), set, lists, objects);
+}
+
+MethodPtr make_crowd(const Scene& scene, const std::string& name, std::shared_ptr<const OurObjects> built,
+                     std::size_t objects) {
+  return std::make_unique<Ours>(scene, name, std::move(built), collision::best_set(), NearLists::used, objects);
 }
 
 }  // namespace mechane::benchmark

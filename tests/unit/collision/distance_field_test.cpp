@@ -116,6 +116,34 @@ TEST(DistanceField, HalvedBlocksAreFoundDownToTheLastLevel) {
   }
 }
 
+/// One leaf all over a cube of blocks tells what it tells of one block as large.
+TEST(DistanceField, ALeafMaySpanSeveralBlocks) {
+  Random random(7);
+  int hits = 0;
+  for (int span = 1; span <= DistanceField::kMaxSpan; ++span) {
+    const int edge = 1 << span;
+    for (int i = 0; i < 50; ++i) {
+      const DistanceField::Leaf leaf = test::any_leaf(random);
+      const DistanceField large = one_block(leaf);
+      DistanceField::Data data = large.data();
+      data.grid = {{edge, edge, edge}, Vec3f::Zero(), 1};
+      data.entries.assign(data.grid.block_count(),
+                          data.entries[0] | std::uint64_t{DistanceField::leaf_word(1, span)} << 32);
+      const DistanceField divided(data);
+      for (int k = 0; k < 20; ++k) {
+        const Vec3f p = Vec3(random.unit(), random.unit(), random.unit()).cast<float>();
+        const MapHit whole = large.evaluate(p);
+        const MapHit hit = divided.evaluate(static_cast<float>(edge) * p);
+        ASSERT_EQ(hit.hit, whole.hit);
+        EXPECT_EQ(hit.depth_m, whole.depth_m);  // in blocks, which are smaller now
+        EXPECT_EQ(hit.n_Q, whole.n_Q);
+        hits += hit.hit ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
 TEST(DistanceField, WhatLeadsAstrayIsNotValid) {
   const auto is_valid_with = [](std::uint32_t word, std::vector<std::uint32_t> children, std::size_t slots) {
     DistanceField::Data data;
@@ -129,6 +157,10 @@ TEST(DistanceField, WhatLeadsAstrayIsNotValid) {
   EXPECT_TRUE(is_valid_with(0, {}, 1));
   EXPECT_TRUE(is_valid_with(DistanceField::leaf_word(1), {}, 2));
   EXPECT_TRUE(is_valid_with(DistanceField::split_word(0), none, 1));
+  EXPECT_TRUE(is_valid_with(DistanceField::leaf_word(1, DistanceField::kMaxSpan), {}, 2));
+  EXPECT_FALSE(is_valid_with(DistanceField::leaf_word(1, DistanceField::kMaxSpan + 1), {}, 2));
+  EXPECT_TRUE(is_valid_with(DistanceField::split_word(0), std::vector(8, DistanceField::leaf_word(1)), 2));
+  EXPECT_FALSE(is_valid_with(DistanceField::split_word(0), std::vector(8, DistanceField::leaf_word(1, 1)), 2));
   EXPECT_FALSE(is_valid_with(0, {}, 0));
   EXPECT_FALSE(is_valid_with(DistanceField::leaf_word(2), {}, 2));
   EXPECT_FALSE(is_valid_with(DistanceField::split_word(0), {}, 2));

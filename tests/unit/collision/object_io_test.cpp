@@ -48,6 +48,10 @@ TEST(ObjectIo, AFieldComesBackAndOnlyItsFilesHaveTheNewVersion) {
     ASSERT_NE(read->parts[0].map.field(), nullptr);
     EXPECT_EQ(write_object(*read), bytes);
     EXPECT_EQ(read->parts[0].map.name(), object.parts[0].map.name());
+    std::vector<std::byte> older = bytes;
+    older[8] = std::byte{kFieldFileVersion - 1};
+    reseal(older);
+    EXPECT_TRUE(read_object(older)) << "its layout is the same";
   }
   geometry::Superquadric shape;
   shape.a = Vec3::Constant(0.01);
