@@ -1,5 +1,6 @@
 """Contact queries: the product's maps against the libraries that a user would take instead, on one scene and in one run."""
 
+import math
 from pathlib import Path
 
 from peers import Measured, Missing, own
@@ -22,6 +23,9 @@ AIMS = {
     "build_s.exhibits": (("at most", 40),),
     "build_s.scan.100000": (("at most", 10),),
     "build_s.scan.1000000": (("at most", 60),),
+    "ratio_wall.gimpact": (("at least", 1),),
+    "ratio_wall.hulls": (("at least", 1),),
+    "wall.ours.overlap_mm.p99": (("at most", 1),),
     "open.missed_pct": (("at most", 0.1),),
     "open.false_pct": (("at most", 0.1),),
     "open.depth_error_pct.p99": (("at most", 0.3),),
@@ -36,6 +40,7 @@ NAMES = {OURS: "Mechane", "brick": "int16 brick, SIMD", "brick_lists": "int16 br
          "embree": "Embree, exact", "paper": "the paper's search", "paper_along": "the same, depth along the normal", "fcl_contacts": "FCL contacts", "fcl_yesno": "FCL yes/no",
          "fcl_gjk": "FCL GJK, convex parts", "sqmap_avx512": "Mechane, AVX-512", "sqmap_avx2": "Mechane, AVX2",
          "sqmap_portable": "Mechane, no vectors", "sqmap_nobrick": "Mechane, no bricks", "sqmap_boxes": "Mechane, boxes",
+         "ours": "Mechane", "gimpact": "Bullet, meshes (GImpact)", "hulls": "Bullet, convex hulls",
          "field": "Mechane, fields", "field_lists": "Mechane, fields, near-lists",
          "field_avx2": "Mechane, fields, AVX2", "field_portable": "Mechane, fields, no vectors"}
 # What thread, staves and valves ask of maps; all models would take most of an hour (build/release/bin/bench_models measures any file).
@@ -43,6 +48,7 @@ SHIPPED = ("archimedes-screw", "ktesibios-pump")
 # Of the meshes beside the repository: those that are open, judged against brute force.
 OPEN = ("alligator", "beetle-alt", "woody")
 MODEL_GRASP_METHODS = ("sqmap", "brick", "fcl_contacts")
+WALL = ("ours", "gimpact", "hulls")  # bodies on bodies
 MESH_METHODS = ("fcl_contacts", "fcl_yesno", "fcl_gjk")  # contacts of meshes, not depths of points: listed apart
 IDLE_US = 2  # a step of FCL's below this met no sphere
 BIN_STEPS = 10  # of the grasp's curve: the mean of so many steps is one point
@@ -72,7 +78,7 @@ def measure(context) -> tuple[Measured, list[str]]:
     closed = [file for file in found if file not in opened]
     exhibits = sorted(str(file) for file in context.root.glob("scenarios/*/*.x3d"))
     for program, arguments in (("bench_collision", seed), ("bench_models", [*shipped, *closed, *seed]), ("bench_open", [*opened, *seed]),
-                               ("bench_build", exhibits), ("bench_fit", seed)):
+                               ("bench_wall", []), ("bench_build", exhibits), ("bench_fit", seed)):
         if program == "bench_fit" and not (context.bin / program).exists():
             continue
         print(f"  {program} ...", flush=True)
@@ -130,10 +136,19 @@ def _built(metrics: dict[str, float]) -> list[list[str]]:
     """A row for each exhibit and for each number of triangles: how long it takes until a thing can be touched."""
     start = "build_cpu_s."
     names = [name[len(start):] for name in metrics if name.startswith(start)]
-    rows = [["built from nothing", "s", "CPU s"]]
+    rows = [["built from nothing", "s", "CPU s", "from kept parts s"]]
     for name in sorted(names, key=lambda name: (name.split(".")[0], int(name.split(".")[-1]) if name[-1].isdigit() else 0, name)):
-        rows.append([name, _shown(metrics, f"build_s.{name}"), _shown(metrics, f"build_cpu_s.{name}")])
+        rows.append([name, *(_shown(metrics, f"{figure}.{name}") for figure in ("build_s", "build_cpu_s", "warm_s"))])
     return rows if names else []
+
+
+def _wall(metrics: dict[str, float]) -> list[list[str]]:
+    """A row for each way to let the wall of 30 blocks fall."""
+    rows = [["falling wall of 30 blocks", "step us", "p99", "overlap mm", "p99", "max", "pairs"]]
+    for name in WALL:
+        rows.append([NAMES[name], *(_shown(metrics, f"wall_step_us.{name}.{q}") for q in ("median", "p99")),
+                     *(_shown(metrics, f"wall.{name}.{figure}") for figure in ("overlap_mm.median", "overlap_mm.p99", "overlap_mm.max", "overlaps"))])
+    return rows if f"wall_step_us.{WALL[0]}.median" in metrics else []
 
 
 def table(name: str, metrics: dict[str, float]) -> str:
@@ -168,6 +183,8 @@ def table(name: str, metrics: dict[str, float]) -> str:
         lines_out += ["", *grid(models)]
     if opened := _open(metrics):
         lines_out += ["", *grid(opened)]
+    if wall := _wall(metrics):
+        lines_out += ["", *grid(wall)]
     if built := _built(metrics):
         lines_out += ["", *grid(built)]
     rest = {metric: value for metric, value in metrics.items() if metric.split(".")[0] in ("scene", "fit", "share", "ratio_avx2", "hulls") and not metric.startswith("scene.first_step")}
@@ -180,6 +197,12 @@ def table(name: str, metrics: dict[str, float]) -> str:
 def _binned(curve: list[list[float]]) -> list[list[float]]:
     bins = [curve[i:i + BIN_STEPS] for i in range(0, len(curve), BIN_STEPS)]
     return [[part[0][0], sum(y for _, y in part) / len(part)] for part in bins]
+
+
+def _cost(metrics: dict[str, float], kind: str) -> list[list[float]]:
+    """Pairs (power of ten of the triangles, processor time) of balls of a kind."""
+    start = f"build_cpu_s.{kind}."
+    return sorted([math.log10(float(name[len(start):])), value] for name, value in metrics.items() if name.startswith(start))
 
 
 def _share_of(curve: list[list[float]], base: list[list[float]]) -> list[list[float | None]]:
@@ -219,6 +242,10 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
         triangles = metrics.get("scene.triangles", 0)
         bars(made[-1], "Memory of the scene", f"the paper's Figure 15b with our data: {triangles:.0f} triangles, equal depth error",
              rows, "KB", ours="Mechane")
+    balls = {kind: _cost(metrics, kind) for kind in ("closed", "scan")}
+    if all(balls.values()):
+        made.append(out / "collision-build.svg")
+        lines(made[-1], "Building a ball for touch, from nothing", f"processor time of all cores. {machine}", balls, "triangles, as a power of ten", "s")
     if "paper_map_mm" in result.curves:
         made.append(out / "collision-map.svg")
         _plot_map(made[-1], result.curves["paper_map_mm"])

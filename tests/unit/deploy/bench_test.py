@@ -122,5 +122,20 @@ class Haptics(unittest.TestCase):
             self.assertIn("stroke-dasharray", made[2].read_text())
 
 
+class Collision(unittest.TestCase):
+    def test_a_wall_has_its_rows_and_the_cost_of_building_its_plot(self):
+        metrics = {f"build_cpu_s.{kind}.{triangles}": triangles / 1e4 for kind in ("closed", "scan") for triangles in (100_000, 3000)}
+        metrics.update({"warm_s.closed.3000": 0.125, "wall_step_us.ours.median": 584.0, "wall.hulls.overlap_mm.max": 2.144})
+        rows = [line.split() for line in bench.collision.table("collision", metrics).splitlines()]
+        self.assertIn(["Mechane", "584", *5 * "-"], rows)
+        self.assertIn(["Bullet,", "convex", "hulls", *4 * "-", "2.14", "-"], rows)
+        self.assertEqual([row[0] for row in rows if row and row[0].startswith("closed")], ["closed.3000", "closed.100000"])
+        with tempfile.TemporaryDirectory() as folder:
+            made = bench.collision.plot(Measured(metrics), Path(folder), "a machine")
+            self.assertEqual([file.stem for file in made], ["collision-build"])
+            ElementTree.parse(made[0])
+        self.assertEqual([cost for _, cost in bench.collision._cost(metrics, "scan")], [0.3, 10])
+
+
 if __name__ == "__main__":
     unittest.main()
