@@ -206,7 +206,6 @@ void MeshQuery::add_quads() {
     }
     if (!quad.is_leaf) {
       put_under(node.first);
-      quad.of_first = quad.count;
       put_under(node.first + 1);
     }
     for (Eigen::Index lane = quad.count; lane < 4; ++lane)
@@ -226,23 +225,24 @@ SurfacePoint MeshQuery::closest(const Vec3& p, const SurfacePoint& near) const {
   return closest_within(p, kRoom * (closest_on_triangle(p, t.a, t.b, t.c) - p).squaredNorm());
 }
 
-std::array<std::uint8_t, 4> MeshQuery::order_of(const Quad& quad, const Vec3& p) const {
-  std::array<std::uint8_t, 4> order{};
-  std::uint8_t filled = 0;
-  const auto first_is_nearer = [&](std::uint32_t first) {
-    return nodes_[first].box.squaredExteriorDistance(p) < nodes_[first + 1].box.squaredExteriorDistance(p);
-  };
-  const auto put = [&](std::uint8_t from, std::uint8_t to, std::uint32_t child) {
-    const bool in_turn = to == from + 1 || first_is_nearer(nodes_[child].first);
-    for (std::uint8_t i = from; i < to; ++i)
-      order[filled++] = static_cast<std::uint8_t>(in_turn ? i : from + to - 1 - i);
-  };
-  const std::uint32_t first = nodes_[quad.node].first;
-  const bool in_turn = first_is_nearer(first);
-  if (in_turn) put(0, quad.of_first, first);
-  put(quad.of_first, quad.count, first + 1);
-  if (!in_turn) put(0, quad.of_first, first);
-  return order;
+bool MeshQuery::comes_before(std::uint32_t slot, std::uint32_t other, const Vec3& p) const {
+  std::uint32_t n = 0;
+  std::uint32_t first = 0;
+  auto count = static_cast<std::uint32_t>(triangles_.size());
+  while (nodes_[n].count == 0) {
+    const std::uint32_t half = count / 2;  // as split() does it
+    const bool in_first = slot < first + half;
+    const std::uint32_t child = nodes_[n].first;
+    if (in_first != (other < first + half)) {
+      const bool first_is_nearer =
+          nodes_[child].box.squaredExteriorDistance(p) < nodes_[child + 1].box.squaredExteriorDistance(p);
+      return in_first == first_is_nearer;
+    }
+    n = in_first ? child : child + 1;
+    first += in_first ? 0 : half;
+    count = in_first ? half : count - half;
+  }
+  return slot < other;
 }
 
 SurfacePoint MeshQuery::closest_within(const Vec3& p, double best_square) const {
@@ -256,32 +256,32 @@ SurfacePoint MeshQuery::closest_within(const Vec3& p, double best_square) const 
   std::array<Open, kStackDepth> stack;
   std::size_t top = 0;
   stack[top++] = {};
+  std::uint32_t best_slot = 0;
   const auto limit = [&] { return static_cast<float>(best_square) * (1 + 2 * QuadPlace::kSlack); };
   while (top > 0) {
     const Open open = stack[--top];
     if (open.square > limit()) continue;
     const Quad& quad = quads_[open.quad];
     const Eigen::Array4f squares = place.squares(quad.boxes);
-    if (!quad.is_leaf) {
-      const auto keeps = [&](std::uint8_t lane) { return lane < quad.count && squares[lane] <= limit(); };
-      const auto push = [&](std::uint8_t lane) { stack[top++] = {quad.child[lane], squares[lane]}; };
-      const int kept = keeps(0) + keeps(1) + keeps(2) + keeps(3);
-      const std::array<std::uint8_t, 4> order = kept > 1 ? order_of(quad, p) : std::array<std::uint8_t, 4>{0, 1, 2, 3};
-      for (std::size_t i = quad.count; i-- > 0;) {
-        if (keeps(order[i])) push(order[i]);
+    const std::size_t bottom = top;
+    for (std::uint8_t lane = 0; lane < quad.count; ++lane) {
+      if (squares[lane] > limit()) continue;
+      if (!quad.is_leaf) {  // the nearest on top
+        std::size_t at = top++;
+        for (; at > bottom && stack[at - 1].square < squares[lane]; --at)
+          stack[at] = stack[at - 1];
+        stack[at] = {quad.child[lane], squares[lane]};
+        continue;
       }
-      continue;
-    }
-    if (nodes_[quad.node].box.squaredExteriorDistance(p) > best_square) continue;
-    for (std::size_t lane = 0; lane < quad.count; ++lane) {
-      if (squares[static_cast<Eigen::Index>(lane)] > limit()) continue;
-      const Triangle& t = triangles_[quad.child[lane]];
+      const std::uint32_t slot = quad.child[lane];
+      const Triangle& t = triangles_[slot];
       const Vec3 q = closest_on_triangle(p, t.a, t.b, t.c);
       const double square = (q - p).squaredNorm();
-      if (square < best_square || (square == best_square && std::isinf(best.distance_m))) {
-        best_square = square;
-        best = {q, std::sqrt(square), t.index};
-      }
+      if (square > best_square) continue;
+      if (square == best_square && !std::isinf(best.distance_m) && !comes_before(slot, best_slot, p)) continue;
+      best_square = square;
+      best_slot = slot;
+      best = {q, std::sqrt(square), t.index};
     }
   }
   return best;

@@ -72,7 +72,6 @@ class MeshQuery {
     std::uint32_t node = 0;
     std::array<std::uint32_t, 4> child{};  // quads; in a leaf: slots of triangles
     std::uint8_t count = 0;
-    std::uint8_t of_first = 0;  // so many of them stand under the node's first child
     bool is_leaf = false;
   };
   struct Triangle {
@@ -96,8 +95,8 @@ class MeshQuery {
   void split(std::uint32_t node);
   void add_quads();
   [[nodiscard]] SurfacePoint closest_within(const Vec3& p, double square) const;
-  /// Lanes in the order of visit: the nearer child's before the other one's, and so of its children.
-  [[nodiscard]] std::array<std::uint8_t, 4> order_of(const Quad& quad, const Vec3& p) const;
+  /// Which of two triangles that are equally near to p answers for it: the one in the nearer child of the node where their ways part.
+  [[nodiscard]] bool comes_before(std::uint32_t slot, std::uint32_t other, const Vec3& p) const;
   /// Calls `found(hit)` for each hit with t > 0, in no order.
   template <class Found>
   void cast_each(const Vec3& origin, const Vec3& direction, const Found& found) const;
