@@ -51,22 +51,23 @@ constexpr SettingKind switch_setting(std::string_view name) {
           [](const DisplaySettings& from) { return std::string(from.*kMember ? "on" : "off"); }};
 }
 
-template <std::string DisplaySettings::*kMember, const std::array<std::string_view, 3>& kWords>
+template <std::string DisplaySettings::*kMember, const auto& kWords>
 constexpr SettingKind word_setting(std::string_view name, std::string_view values) {
   return {{name, values},
           [](const std::string& text, DisplaySettings& into) {
-            if (text.empty() || std::ranges::find(kWords, text) == kWords.end()) return false;
+            if (std::ranges::find(kWords, text) == kWords.end()) return false;
             into.*kMember = text;
             return true;
           },
           [](const DisplaySettings& from) { return from.*kMember; }};
 }
 
-constexpr std::array<std::string_view, 3> kLanguages{"el", "en", ""};
+constexpr std::array<std::string_view, 2> kLanguages{"el", "en"};
 constexpr std::array<std::string_view, 3> kAsks{"none", "after", "both"};
+constexpr std::array<std::string_view, 5> kQualities{"auto", "high", "medium", "low", "cached"};
 constexpr int kMostSeconds = static_cast<int>(kDay_s);
 
-constexpr std::array<SettingKind, 9> kSettings{{
+constexpr std::array<SettingKind, 10> kSettings{{
     number_setting<&DisplaySettings::volume, 0, 1>("volume", "0 to 1"),
     switch_setting<&DisplaySettings::muted>("mute"),
     word_setting<&DisplaySettings::language, kLanguages>("language", "el, en"),
@@ -76,6 +77,7 @@ constexpr std::array<SettingKind, 9> kSettings{{
     number_setting<&DisplaySettings::home_after_s, 0, kMostSeconds>("home-after", "0 (never) to 86400 seconds"),
     switch_setting<&DisplaySettings::attract>("attract"),
     number_setting<&DisplaySettings::attract_after_s, 5, kMostSeconds>("attract-after", "5 to 86400 seconds"),
+    word_setting<&DisplaySettings::quality, kQualities>("quality", "auto, high, medium, low, cached"),
 }};
 
 /// A name or value from outside in quotes, without characters that could drive a terminal.

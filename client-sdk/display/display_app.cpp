@@ -99,7 +99,10 @@ Expected<DisplaySummary> run_display(const DisplayOptions& options, DisplaySigna
     context = std::move(*opened);
   }
   DisplayOptions possible = possible_options(options, window);
-  auto renderer = draw::Renderer::create(options.renderer);
+  // With auto, the cheapest first: the loop measures what draws.
+  possible.renderer.quality =
+      draw::quality_of(options.quality).value_or(options.offscreen ? draw::Quality::high : draw::Quality::cached);
+  auto renderer = draw::Renderer::create(possible.renderer);
   if (!renderer) return tl::unexpected(renderer.error());
   client::ClientConfig config;
   config.kiosk = options.kiosk;

@@ -41,6 +41,7 @@ struct DisplayOptions {
   double seconds = 0;        ///< stop after this time; 0: no limit
   bool until_done = false;   ///< stop when the world's last activity is done
   double fps = 60;           ///< at most
+  std::string quality = "auto";  ///< a name of draw::Quality, or auto: as measured; offscreen, auto is high
   draw::RendererSettings renderer;
   visit::AskWhen ask = visit::AskWhen::after;  ///< an activity's questions
   picture::OverlayStyle overlay;               ///< at the start; keys change it

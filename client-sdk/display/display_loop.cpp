@@ -25,12 +25,13 @@ DisplayLoop::DisplayLoop(const DisplayOptions& options, DisplaySignals& signals,
       folder_(options.out, options.stereo) {}
 
 Expected<DisplaySummary> DisplayLoop::run() {
+  if (auto ok = presenter_.set_quality(options_.quality); !ok) return tl::unexpected(ok.error());
   started_ = next_ = clock_.now();
   while (!stop_wanted(now())) {
     const TimePoint now = this->now();
     take_news(now);
     take_visitor(now);
-    tend_kiosk(now);
+    if (auto ok = tend_kiosk(now); !ok) return tl::unexpected(ok.error());
     if (auto ok = show(now); !ok) return tl::unexpected(ok.error());
     if (auto ok = answer(folder_.take_written()); !ok) return tl::unexpected(ok.error());
     wait_for_next(now);
@@ -84,17 +85,19 @@ void DisplayLoop::take_visitor(TimePoint now) {
 }
 
 /// Handles requests from other machines, and sends the display's status.
-void DisplayLoop::tend_kiosk(TimePoint now) {
+Expected<void> DisplayLoop::tend_kiosk(TimePoint now) {
   if (desk_.take_requests(visitor_.style())) {
     const client::DisplaySettings& requested = desk_.settings();
     visitor_.change(panel_settings(requested));
     presenter_.soundtrack().set_levels(requested.volume, requested.muted);
+    if (auto ok = presenter_.set_quality(requested.quality); !ok) return ok;
   }
-  if (!desk_.report_due(now)) return;
+  if (!desk_.report_due(now)) return {};
   const scene::ShownWorld& world = news_.world();
   desk_.report({context_.size(), world.status(), world.missing(), presenter_.soundtrack().state(),
                 visitor_.invitation() != nullptr},
                now);
+  return {};
 }
 
 /// Draws, and takes the pictures that are due or requested.

@@ -34,7 +34,7 @@ class DisplayLoop {
   [[nodiscard]] bool stop_wanted(TimePoint now) const;
   void take_news(TimePoint now);
   void take_visitor(TimePoint now);
-  void tend_kiosk(TimePoint now);
+  [[nodiscard]] Expected<void> tend_kiosk(TimePoint now);
   [[nodiscard]] Expected<void> show(TimePoint now);
   void take_pictures(bool requested);
   [[nodiscard]] Expected<void> answer(const std::vector<PictureFolder::Written>& pictures);

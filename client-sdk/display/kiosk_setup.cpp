@@ -33,6 +33,7 @@ client::DisplaySettings settings_at_start(const DisplayOptions& options) {
   settings.home_after_s = options.home_after_s;
   settings.attract = !options.attract.empty();
   settings.attract_after_s = options.attract_after_s;
+  settings.quality = options.quality;
   return settings;
 }
 

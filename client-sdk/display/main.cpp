@@ -151,6 +151,11 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
       "--mute", [&o] { o.sound.on = false; }, "play no sound");
   app.add_option("--narration", o.sound.narration,
                  "folder with the recordings of deploy/narration; without: the one beside the programs");
+  app.add_option("--quality", o.quality,
+                 "how good pictures are: auto measures what draws; high, medium, low; cached draws what stands still "
+                 "only once, for machines without a graphics card. Offscreen, auto is high")
+      ->check(CLI::IsMember({"auto", "high", "medium", "low", "cached"}))
+      ->capture_default_str();
   app.add_option("--fps", o.fps, "frames a second, at most")->check(CLI::Range(0.1, 240.0))->capture_default_str();
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "client-sdk/display/spare_memory.hpp"
 #include "client-sdk/scene/thing_names.hpp"
 #include "server/log/log.hpp"
@@ -132,7 +134,7 @@ Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
   }
   make_room(scene, now);
   if (window_ != nullptr) renderer_->begin_at_row(window_->first_row());
-  if (auto drawn = renderer_->draw(scene, options_.stereo, size); !drawn) return survive(drawn.error()).map(nothing);
+  if (auto drawn = draw_measured(scene, size, now); !drawn) return survive(drawn.error()).map(nothing);
   if (options_.offscreen) {
     draw::Renderer::finish();
   } else {
@@ -145,6 +147,45 @@ Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
   const Duration took = clock_.now() - began;
   if (frame_ms_.size() < kFrameTimesKept) frame_ms_.push_back(1e3 * to_seconds(took));
   return took;
+}
+
+Expected<void> Presenter::set_quality(const std::string& name) {
+  if (name == quality_) return {};
+  quality_ = name;
+  governor_.reset();
+  timer_.reset();
+  if (const auto chosen = draw::quality_of(name)) {
+    renderer_->set_quality(*chosen);
+  } else if (options_.offscreen) {
+    renderer_->set_quality(draw::Quality::high);  // pictures are the same on every machine
+  } else {
+    const Expected<draw::DrawingSpeed> speed = draw::measure_drawing_speed();
+    if (!speed) return tl::unexpected(speed.error());
+    governor_.emplace(draw::quality_for(*speed), 1e3 / options_.fps);
+    timer_.emplace(speed->by_processor);
+    renderer_->set_quality(governor_->quality());
+    log::info(fmt::format("a million pixels of sky take {:.1f} ms: pictures in the quality {}", speed->megapixel_ms,
+                          draw::quality_name(governor_->quality())));
+  }
+  return {};
+}
+
+/// Draws, and lets the time that it takes decide on the quality of the next picture.
+Expected<void> Presenter::draw_measured(const picture::RenderScene& scene, picture::PixelSize size, TimePoint now) {
+  if (!governor_) return renderer_->draw(scene, options_.stereo, size);
+  timer_->begin();
+  const Expected<void> drawn = renderer_->draw(scene, options_.stereo, size);
+  timer_->end();
+  const std::optional<double> ms = timer_->take();
+  if (!drawn || !ms) return drawn;
+  const draw::Quality before = governor_->quality();
+  const draw::Quality next = governor_->drawn(*ms, now);
+  if (next != before) {
+    log::info(
+        fmt::format("a picture takes {:.1f} ms to draw: from now on in the quality {}", *ms, draw::quality_name(next)));
+    renderer_->set_quality(next);
+  }
+  return drawn;
 }
 
 void Presenter::hear(const picture::Camera& ears, TimePoint now) {
@@ -181,6 +222,8 @@ Expected<void> Presenter::recover() {
       "the graphics card was reset (by its driver, or because the machine slept) and has lost everything: the display "
       "uploads it again");
   renderer_.reset();
+  governor_.reset();
+  timer_.reset();
   const TimePoint lost = clock_.now();
   auto renderer = begin_drawing();
   while (!renderer && !signals_.stop && clock_.now() - lost < kCardComesBack) {
@@ -191,7 +234,7 @@ Expected<void> Presenter::recover() {
   renderer_ = std::move(*renderer);
   upload();
   log::info("the graphics card is back");
-  return {};
+  return set_quality(std::exchange(quality_, {}));
 }
 
 }  // namespace mechane::display

@@ -14,6 +14,7 @@
 #include "client-sdk/display/soundtrack.hpp"
 #include "client-sdk/display/visitor.hpp"
 #include "client-sdk/display/window.hpp"
+#include "client-sdk/draw/draw_timer.hpp"
 #include "client-sdk/scene/step_view.hpp"
 #include "server/base/clock.hpp"
 
@@ -43,6 +44,8 @@ class Presenter {
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   /// The times of the first 20 000 frames.
   [[nodiscard]] const std::vector<double>& frame_ms() const { return frame_ms_; }
+  /// From the next picture on; a name as in DisplayOptions::quality. Errors: the driver rejects what measures.
+  [[nodiscard]] Expected<void> set_quality(const std::string& name);
   [[nodiscard]] Soundtrack& soundtrack() { return soundtrack_; }
 
  private:
@@ -51,6 +54,7 @@ class Presenter {
   [[nodiscard]] picture::RenderScene compose(TimePoint now);
   void name_what_is_meant(picture::RenderScene& scene) const;
   void make_room(picture::RenderScene& scene, TimePoint now);
+  [[nodiscard]] Expected<void> draw_measured(const picture::RenderScene& scene, picture::PixelSize size, TimePoint now);
   void hear(const picture::Camera& ears, TimePoint now);
   [[nodiscard]] bool shows_live_world() const;
   [[nodiscard]] Expected<void> survive(const Error& error);
@@ -61,7 +65,10 @@ class Presenter {
   const DisplaySignals& signals_;
   draw::GlContext& context_;
   Window* window_;
-  std::unique_ptr<draw::Renderer> renderer_;  ///< in the present context
+  std::unique_ptr<draw::Renderer> renderer_;       ///< in the present context
+  std::string quality_;                            ///< its name, or auto
+  std::optional<draw::QualityGovernor> governor_;  ///< with auto, in a window
+  std::optional<draw::DrawTimer> timer_;           ///< likewise
   News& news_;
   const Visitor& visitor_;
   SystemClock clock_;

@@ -25,6 +25,9 @@ void delete_sampler(std::uint32_t name) noexcept {
 void delete_program(std::uint32_t name) noexcept {
   glDeleteProgram(name);
 }
+void delete_query(std::uint32_t name) noexcept {
+  glDeleteQueries(1, &name);
+}
 
 namespace {
 
@@ -55,6 +58,9 @@ RenderbufferName make_renderbuffer() {
 }
 SamplerName make_sampler() {
   return generated<SamplerName>(glGenSamplers);
+}
+QueryName make_query() {
+  return generated<QueryName>(glGenQueries);
 }
 
 void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes) {

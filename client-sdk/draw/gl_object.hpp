@@ -45,6 +45,7 @@ void delete_framebuffer(std::uint32_t name) noexcept;
 void delete_renderbuffer(std::uint32_t name) noexcept;
 void delete_sampler(std::uint32_t name) noexcept;
 void delete_program(std::uint32_t name) noexcept;
+void delete_query(std::uint32_t name) noexcept;
 
 using TextureName = GlName<delete_texture>;
 using BufferName = GlName<delete_buffer>;
@@ -53,6 +54,7 @@ using FramebufferName = GlName<delete_framebuffer>;
 using RenderbufferName = GlName<delete_renderbuffer>;
 using SamplerName = GlName<delete_sampler>;
 using ProgramName = GlName<delete_program>;
+using QueryName = GlName<delete_query>;
 
 [[nodiscard]] TextureName make_texture();
 [[nodiscard]] BufferName make_buffer();
@@ -60,6 +62,7 @@ using ProgramName = GlName<delete_program>;
 [[nodiscard]] FramebufferName make_framebuffer();
 [[nodiscard]] RenderbufferName make_renderbuffer();
 [[nodiscard]] SamplerName make_sampler();
+[[nodiscard]] QueryName make_query();
 
 /// Describes the vertices of the bound buffer: attribute i has sizes[i] floats, one attribute after another.
 void describe_floats(std::span<const int> sizes, std::size_t vertex_bytes);

@@ -1,6 +1,7 @@
 #include "client-sdk/draw/render_target.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ void attach_depth_texture(const FramebufferName& framebuffer, const TextureName&
 
 /// Makes `texture` a colour picture and the framebuffer's colour attachment. Leaves both bound.
 void attach_colour_texture(const FramebufferName& framebuffer, const TextureName& texture, picture::PixelSize size,
-                           GLint format, GLenum type, GLint filter) {
+                           GLint format, GLenum type, GLint filter, GLenum place = GL_COLOR_ATTACHMENT0) {
   glBindTexture(GL_TEXTURE_2D, texture.get());
   glTexImage2D(GL_TEXTURE_2D, 0, format, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height), 0,
                GL_RGBA, type, nullptr);
@@ -46,7 +47,15 @@ void attach_colour_texture(const FramebufferName& framebuffer, const TextureName
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   clamp_to_edge(GL_TEXTURE_2D);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.get(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, texture.get(), 0);
+}
+
+void blit(const FramebufferName& from, const FramebufferName& to, picture::PixelSize size, GLbitfield what) {
+  const auto width = static_cast<GLint>(size.width);
+  const auto height = static_cast<GLint>(size.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to.get());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, what, GL_NEAREST);
 }
 
 }  // namespace
@@ -54,9 +63,14 @@ void attach_colour_texture(const FramebufferName& framebuffer, const TextureName
 Expected<HdrTarget> HdrTarget::create(picture::PixelSize size, int samples) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  HdrTarget target{
-      make_framebuffer(), make_texture(), make_renderbuffer(), size, std::clamp(samples, 1, std::max(most, 1)),
-      make_framebuffer(), make_texture()};
+  HdrTarget target{make_framebuffer(),
+                   make_texture(),
+                   make_renderbuffer(),
+                   size,
+                   std::clamp(samples, 1, std::max(most, 1)),
+                   make_framebuffer(),
+                   make_texture(),
+                   samples};
   const auto width = static_cast<GLsizei>(size.width);
   const auto height = static_cast<GLsizei>(size.height);
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, target.colour.get());
@@ -73,11 +87,7 @@ Expected<HdrTarget> HdrTarget::create(picture::PixelSize size, int samples) {
 }
 
 void HdrTarget::resolve_depth() const {
-  const auto width = static_cast<GLint>(size.width);
-  const auto height = static_cast<GLint>(size.height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.get());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, depth_copy_framebuffer.get());
-  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  blit(framebuffer, depth_copy_framebuffer, size, GL_DEPTH_BUFFER_BIT);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
 }
 
@@ -155,6 +165,48 @@ picture::ImageData PictureTarget::read() const {
   for (std::size_t i = 3; i < image.rgba.size(); i += 4)
     image.rgba[i] = 255;
   return image;
+}
+
+Expected<ScreenTarget> ScreenTarget::create(picture::PixelSize size, Use use) {
+  ScreenTarget target{
+      make_framebuffer(), make_texture(), make_texture(), size, make_framebuffer(), make_texture(), {}, {}};
+  attach_depth_texture(target.framebuffer, target.depth, size);
+  attach_colour_texture(target.framebuffer, target.colour, size, GL_RGBA8, GL_UNSIGNED_BYTE, GL_LINEAR);
+  constexpr std::array<GLenum, 3> kPlaces{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+  if (use == Use::kept) {
+    target.all_light = make_texture();
+    target.sun_light = make_texture();
+    attach_colour_texture(target.framebuffer, target.all_light, size, GL_RGBA16F, GL_FLOAT, GL_NEAREST, kPlaces[1]);
+    attach_colour_texture(target.framebuffer, target.sun_light, size, GL_RGBA16F, GL_FLOAT, GL_NEAREST, kPlaces[2]);
+  }
+  glDrawBuffers(use == Use::kept ? 3 : 1, kPlaces.data());
+  glReadBuffer(kPlaces[0]);
+  if (auto ok = check_complete("picture with depth", size); !ok) return tl::unexpected(ok.error());
+  if (use == Use::drawn) {
+    attach_depth_texture(target.depth_copy_framebuffer, target.depth_copy, size);
+    if (auto ok = check_complete("copy of the depth", size); !ok) return tl::unexpected(ok.error());
+  }
+  return target;
+}
+
+void ScreenTarget::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glViewport(0, 0, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
+}
+
+void ScreenTarget::copy_depth() const {
+  blit(framebuffer, depth_copy_framebuffer, size, GL_DEPTH_BUFFER_BIT);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+}
+
+void ScreenTarget::copy_from(const ScreenTarget& other) const {
+  blit(other.framebuffer, framebuffer, size, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+}
+
+void PictureArea::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glViewport(x, y, static_cast<GLsizei>(size.width), static_cast<GLsizei>(size.height));
 }
 
 Expected<FloatTarget> FloatTarget::create(picture::PixelSize size) {

@@ -1,6 +1,7 @@
 // The targets of passes: a multisampled HDR picture, a shadow map, a finished 8-bit picture.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "client-sdk/draw/gl_context.hpp"
@@ -19,6 +20,7 @@ struct HdrTarget {
   int samples = 1;
   FramebufferName depth_copy_framebuffer;
   TextureName depth_copy;  ///< one sample a pixel, written by resolve_depth()
+  int asked_samples = 1;   ///< the driver may have fewer
 
   [[nodiscard]] static Expected<HdrTarget> create(picture::PixelSize size, int samples);
   /// Copies the depth to where shaders can read it, and leaves `framebuffer` bound.
@@ -59,6 +61,41 @@ struct PictureTarget {
   [[nodiscard]] static Expected<PictureTarget> create(picture::PixelSize size);
   /// Reads the picture back, upper row first, opaque.
   [[nodiscard]] picture::ImageData read() const;
+};
+
+/// Screen colours with depth, one sample a pixel.
+struct ScreenTarget {
+  enum class Use : std::uint8_t {
+    drawn,  ///< its depth can be copied to where shaders read it
+    kept,   ///< has its light too: see screen.glsl
+  };
+  FramebufferName framebuffer;
+  TextureName colour;
+  TextureName depth;
+  picture::PixelSize size;
+  FramebufferName depth_copy_framebuffer;  ///< drawn
+  TextureName depth_copy;                  ///< drawn; written by copy_depth()
+  TextureName all_light;                   ///< kept
+  TextureName sun_light;                   ///< kept
+
+  [[nodiscard]] static Expected<ScreenTarget> create(picture::PixelSize size, Use use);
+  /// Binds it with a viewport of its full size.
+  void bind() const;
+  /// Copies the depth to depth_copy, and leaves `framebuffer` bound.
+  void copy_depth() const;
+  /// Makes colour and depth those of another target of this size, and leaves `framebuffer` bound.
+  void copy_from(const ScreenTarget& other) const;
+};
+
+/// A rectangle of a target, (x, y) its lower left corner.
+struct PictureArea {
+  const FramebufferName& framebuffer;
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  picture::PixelSize size;
+
+  /// Binds it, with a viewport of just this area.
+  void bind() const;
 };
 
 /// One float picture without depth: the sky's map (radiance, rows from the zenith down), or an intermediate picture.

@@ -10,7 +10,9 @@
 #include <set>
 #include <string>
 
+#include "client-sdk/draw/low_renderer.hpp"
 #include "client-sdk/draw/passes/passes.hpp"
+#include "client-sdk/draw/quality.hpp"
 #include "client-sdk/draw/text/overlay_pass.hpp"
 #include "client-sdk/picture/render_scene.hpp"
 #include "client-sdk/picture/stereo.hpp"
@@ -18,8 +20,9 @@
 namespace mechane::draw {
 
 struct RendererSettings {
-  int samples = 4;  ///< a pixel, 1..8
-  std::uint32_t shadow_map_size = 2048;
+  Quality quality = Quality::high;       ///< at the start
+  int samples = 4;                       ///< a pixel, 1..8, in the quality `high`
+  std::uint32_t shadow_map_size = 2048;  ///< in `high` and `medium`
   float exposure = 1.15F;
   float glow = 0.16F;               ///< share of too bright light that is spread around it
   float ambient_occlusion = 0.45F;  ///< how much places where things meet are darkened, 0..1
@@ -47,10 +50,16 @@ class Renderer {
   /// Frees all that was uploaded, for another scenario.
   void forget_assets() {
     assets_ = {};
-    passes_.shadow.forget();
+    if (full_) full_->shadow.forget();
+    if (low_) low_->forget();
   }
-  /// How many shadow maps have been drawn; none are added by a picture in which nothing moved.
-  [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return passes_.shadow.times_drawn(); }
+  [[nodiscard]] Quality quality() const { return quality_; }
+  /// From the next picture on.
+  void set_quality(Quality quality) { quality_ = quality; }
+  /// How many shadow maps have been drawn in `high` and `medium`; none are added by a picture in which nothing moved.
+  [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return full_ ? full_->shadow.times_drawn() : 0; }
+  /// What draws in `low` and `cached`; null before the first such picture.
+  [[nodiscard]] const LowRenderer* low() const { return low_ ? &*low_ : nullptr; }
   /// For row-interleaved screens, whose rows belong to the eyes alternately: sets the screen row of the picture's
   /// uppermost row.
   void begin_at_row(int row) { odd_row_ = row % 2 != 0; }
@@ -63,17 +72,18 @@ class Renderer {
   [[nodiscard]] const std::vector<PassTime>& pass_times() const { return pass_times_; }
   /// Lays out the scene's words, before it is drawn.
   const OverlayLayout& lay_out(const picture::RenderScene& scene, picture::Stereo stereo, picture::PixelSize size) {
-    return passes_.overlay.lay_out(scene, picture::seen_size(stereo, size));
+    return overlay_.lay_out(scene, picture::seen_size(stereo, size));
   }
   /// The overlay of the last picture, in pixels of one eye's picture.
-  [[nodiscard]] const OverlayLayout& overlay() const { return passes_.overlay.layout(); }
+  [[nodiscard]] const OverlayLayout& overlay() const { return overlay_.layout(); }
   /// Waits until the last picture is drawn.
   static void finish();
   /// Copies the last picture into the window; after quad_buffer, into both of its pictures.
   void copy_to_window(picture::PixelSize window) const;
 
  private:
-  struct Passes {
+  /// Of `high` and `medium`.
+  struct FullPasses {
     ShadowPass shadow;
     OpaquePass opaque;
     SkyPass sky;
@@ -84,15 +94,23 @@ class Renderer {
     BloomPass bloom;
     AmbientOcclusionPass ambient_occlusion;
     TonePass tone;
-    CompositePass composite;
-    OverlayPass overlay;
   };
-  Renderer(const RendererSettings& settings, Passes passes) : settings_(settings), passes_(std::move(passes)) {}
+  [[nodiscard]] static Expected<FullPasses> make_full(std::uint32_t shadow_map_size);
+  Renderer(const RendererSettings& settings, CompositePass composite, OverlayPass overlay)
+      : settings_(settings),
+        quality_(settings.quality),
+        composite_(std::move(composite)),
+        overlay_(std::move(overlay)) {}
+  [[nodiscard]] bool is_low() const { return quality_ == Quality::low || quality_ == Quality::cached; }
+  [[nodiscard]] Expected<void> fit_passes();
   [[nodiscard]] Expected<void> fit_targets(picture::Stereo stereo, picture::PixelSize picture, bool inset);
   [[nodiscard]] Expected<void> fit_sky(const picture::Sun& sun);
   void upload_moving(const picture::RenderScene& scene);
   /// Starts measuring; with a name: ends this pass and starts the next.
   void mark(const char* pass);
+  /// Draws both eyes, and before them the close-up.
+  [[nodiscard]] Expected<void> draw_full(const picture::RenderScene& scene, picture::Stereo stereo);
+  [[nodiscard]] Expected<void> draw_low(const picture::RenderScene& scene, picture::Stereo stereo);
   [[nodiscard]] Expected<void> draw_view(const picture::RenderScene& scene, const picture::EyeView& view,
                                          const ShadowSetup& shadows, const HdrTarget& target);
   /// The place of an eye's finished picture: `pixels` of `target`, with the lower left corner at (x, y). Its overlay is
@@ -105,13 +123,19 @@ class Renderer {
     std::int32_t y = 0;
   };
   [[nodiscard]] EyeTarget target_of(picture::Stereo stereo, std::size_t eye) const;
+  [[nodiscard]] static PictureArea area_of(const EyeTarget& into);
+  [[nodiscard]] static PictureArea inset_area_of(const EyeTarget& into);
   /// Tone, close-up and words of one eye.
   [[nodiscard]] Expected<void> finish_eye(const picture::RenderScene& scene, const picture::EyeView& view,
                                           const EyeTarget& into);
 
   bool odd_row_ = false;
   RendererSettings settings_;
-  Passes passes_;
+  Quality quality_;
+  CompositePass composite_;
+  OverlayPass overlay_;
+  std::optional<FullPasses> full_;  ///< made when they are needed first; so is the next
+  std::optional<LowRenderer> low_;
   GpuAssets assets_;
   StreamedMesh ropes_ = StreamedMesh::create();
   std::vector<StreamedMesh> soft_bodies_;  ///< the first ones are the scene's

@@ -29,7 +29,7 @@ std::string log_of(GLuint name, bool is_program) {
   return text;
 }
 
-Expected<GLuint> compile(GLenum stage, std::initializer_list<std::string_view> files) {
+Expected<GLuint> compile(GLenum stage, const std::vector<std::string_view>& files) {
   std::string source = "#version 330 core\n";
   std::string names;
   for (const std::string_view file : files) {
@@ -57,6 +57,20 @@ Expected<GLuint> compile(GLenum stage, std::initializer_list<std::string_view> f
 
 Expected<Program> Program::link(std::initializer_list<std::string_view> vertex,
                                 std::initializer_list<std::string_view> fragment) {
+  return link_files(vertex, fragment);
+}
+
+Expected<Program> Program::link(Shading shading, std::initializer_list<std::string_view> vertex,
+                                std::initializer_list<std::string_view> fragment) {
+  const bool low = shading == Shading::screen;
+  Files vertex_files = low ? Files{"low.glsl"} : Files{};
+  Files fragment_files = low ? Files{"low.glsl", "tone.glsl", "screen.glsl"} : Files{"linear.glsl"};
+  vertex_files.insert(vertex_files.end(), vertex.begin(), vertex.end());
+  fragment_files.insert(fragment_files.end(), fragment.begin(), fragment.end());
+  return link_files(vertex_files, fragment_files);
+}
+
+Expected<Program> Program::link_files(const Files& vertex, const Files& fragment) {
   const Expected<GLuint> v = compile(GL_VERTEX_SHADER, vertex);
   if (!v) return tl::unexpected(v.error());
   const Expected<GLuint> f = compile(GL_FRAGMENT_SHADER, fragment);
@@ -74,7 +88,7 @@ Expected<Program> Program::link(std::initializer_list<std::string_view> vertex,
   glGetProgramiv(program.get(), GL_LINK_STATUS, &linked);
   if (linked == GL_FALSE) {
     return fail(ErrorCode::not_supported, "the graphics driver does not link a shader: " + log_of(program.get(), true),
-                std::string(*(fragment.end() - 1)), "update the graphics driver");
+                std::string(fragment.back()), "update the graphics driver");
   }
   return Program(std::move(program));
 }

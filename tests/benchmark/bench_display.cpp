@@ -2,9 +2,12 @@
 // there. Wall time, and the processor's (all threads: a software renderer's cost, however busy the machine is). From a
 // frame's receipt to its picture. Memory.
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,7 @@
 #include "client-sdk/display/spare_memory.hpp"
 #include "client-sdk/draw/renderer.hpp"
 #include "client-sdk/picture/image_file.hpp"
+#include "client-sdk/recording/recorded_client.hpp"
 #include "client-sdk/scene/scene_builder.hpp"
 #include "server/base/clock.hpp"
 #include "server/content/mesh_import.hpp"
@@ -32,6 +36,8 @@ struct Config {
   std::string scenario;
   std::string out;
   std::string stereo = "mono";
+  draw::Quality quality = draw::Quality::high;
+  std::string visit;  ///< a recording of the place; empty: the start of the visit
   int frames = 15;
   std::uint32_t width = 1280;
   std::uint32_t height = 720;
@@ -139,10 +145,63 @@ double peak_mib() {
   return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<double>(usage.ru_maxrss) / 1024 : 0;
 }
 
+/// The telling moment of a recorded visit, the third of its four: hands, and all bodies that have moved since the
+/// first, move a little from picture to picture.
+class BusyMoment {
+ public:
+  static Expected<BusyMoment> open(const std::string& file) {
+    auto recording = recording::FrameRecording::open_file(file);
+    if (!recording) return tl::unexpected(recording.error());
+    return BusyMoment(recording::RecordedClient(std::move(*recording), {}));
+  }
+
+  void prepare(scene::SceneBuilder& builder) {
+    builder.set_presentation(client_.presentation());
+    builder.set_manifest(client_.objects());
+  }
+
+  picture::RenderScene scene(scene::SceneBuilder& builder, int picture) const {
+    client::Frame frame = frame_;
+    const double up_m = 0.002 * std::sin(0.5 * picture);
+    for (client::BodyPose& body : frame.bodies) {
+      if (moved_.contains(body.object)) body.X_WB.p.y() += up_m;
+    }
+    for (client::HandPose& hand : frame.hands) {
+      for (Pose& X_WS : hand.X_WS)
+        X_WS.p.y() += up_m;
+    }
+    picture::RenderScene out = builder.build(&frame, &status_, client_.state());
+    out.time_s += picture / 30.0;
+    return out;
+  }
+
+ private:
+  explicit BusyMoment(recording::RecordedClient client) : client_(std::move(client)) {
+    client::Frame first;
+    client_.advance(TimePoint{});
+    (void)client_.newest_frame(first);
+    client_.advance(TimePoint{} + std::chrono::seconds(2));
+    (void)client_.newest_frame(frame_);
+    status_ = client_.world_status().value_or(client::WorldStatus{});
+    for (const client::BodyPose& body : frame_.bodies) {
+      const auto before = std::ranges::find(first.bodies, body.object, &client::BodyPose::object);
+      if (before == first.bodies.end() || (before->X_WB.p - body.X_WB.p).norm() > 1e-4 ||
+          before->X_WB.R.angularDistance(body.X_WB.R) > 1e-3)
+        moved_.insert(body.object);
+    }
+  }
+
+  recording::RecordedClient client_;
+  client::Frame frame_;
+  client::WorldStatus status_;
+  std::set<std::uint32_t> moved_;
+};
+
 Expected<void> measure_passes(const Config& config, picture::Stereo stereo, const state::WorldDescription& world,
                               scene::SceneBuilder& builder, const picture::SceneAssets& assets, Report& report) {
   draw::RendererSettings settings;
   settings.profile = true;
+  settings.quality = config.quality;
   auto renderer = draw::Renderer::create(settings);
   if (!renderer) return tl::unexpected(renderer.error());
   (*renderer)->upload(assets);
@@ -177,12 +236,58 @@ Expected<void> measure_passes(const Config& config, picture::Stereo stereo, cons
   return config.out.empty() ? Expected<void>() : picture::write_png((*renderer)->read_picture(), config.out);
 }
 
+double cpu_ms() {
+  return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Whole pictures of a moment in which things move, without a wait between passes.
+Expected<void> measure_moment(const Config& config, picture::Stereo stereo, scene::AssetLibrary& library,
+                              Report& report) {
+  auto moment = BusyMoment::open(config.visit);
+  if (!moment) return tl::unexpected(moment.error());
+  scene::SceneBuilder builder(library, "en");
+  moment->prepare(builder);
+  draw::RendererSettings settings;
+  settings.quality = config.quality;
+  auto renderer = draw::Renderer::create(settings);
+  if (!renderer) return tl::unexpected(renderer.error());
+  (*renderer)->upload(library.assets());
+  Samples wall(static_cast<std::size_t>(config.frames));
+  std::vector<double> all_ms;
+  std::vector<double> other_ms;
+  constexpr int kFirst = -6;  // shaders are compiled, and what stands still is found
+  for (int picture = kFirst; picture < config.frames; ++picture) {
+    const TimePoint began = std::chrono::steady_clock::now();
+    const double began_ms = cpu_ms();
+    const picture::RenderScene scene = moment->scene(builder, picture - kFirst);
+    (void)(*renderer)->lay_out(scene, stereo, {config.width, config.height});
+    const double built_ms = cpu_ms();
+    if (auto ok = (*renderer)->draw(scene, stereo, {config.width, config.height}); !ok) return ok;
+    draw::Renderer::finish();
+    if (picture < 0) continue;
+    wall.add(std::chrono::steady_clock::now() - began);
+    all_ms.push_back(cpu_ms() - began_ms);
+    other_ms.push_back(built_ms - began_ms);
+  }
+  report.metric("picture.wall_ms.median", wall.quantile_us(0.5) / 1000);
+  report.metric("picture.cpu_ms.median", quantile(all_ms, 0.5));
+  report.metric("picture.cpu_ms.p99", quantile(all_ms, 0.99));
+  report.metric("other.cpu_ms.p99", quantile(other_ms, 0.99));
+  return config.out.empty() ? Expected<void>() : picture::write_png((*renderer)->read_picture(), config.out);
+}
+
 Expected<void> measure(const Config& config, const state::WorldDescription& world, scene::AssetLibrary& library,
                        Report& report) {
   const auto stereo =
       std::ranges::find(picture::stereo_names(), config.stereo, &std::pair<std::string_view, picture::Stereo>::first);
   if (stereo == picture::stereo_names().end())
     return fail(ErrorCode::unknown_name, "no such mode", config.stereo, "see mechane display --help");
+  if (!config.visit.empty()) {
+    auto context = draw::make_offscreen_context({config.width, config.height});
+    if (!context) return tl::unexpected(context.error());
+    report.note((*context)->renderer_name());
+    return measure_moment(config, stereo->second, library, report);
+  }
   scene::SceneBuilder builder(library, "en");
   builder.set_manifest(objects_of(world));
   builder.set_presentation(presentation_of(world));
@@ -231,6 +336,12 @@ int main(int argc, char** argv) {
   app.add_option("--width", config.width, "pixels")->check(CLI::Range(16, 8192));
   app.add_option("--height", config.height, "pixels")->check(CLI::Range(16, 8192));
   app.add_option("--stereo", config.stereo, "as mechane display has it");
+  app.add_option_function<std::string>(
+         "--quality", [&config](const std::string& name) { config.quality = *mechane::draw::quality_of(name); },
+         "high, medium, low or cached")
+      ->check(CLI::IsMember({"high", "medium", "low", "cached"}));
+  app.add_option("--visit", config.visit, "recording of the place: whole pictures of its third moment, things moving")
+      ->check(CLI::ExistingFile);
   app.add_option("--out", config.out, "writes the last picture, PNG");
   CLI11_PARSE(app, argc, argv);
   mechane::display::keep_large_blocks_apart();  // as a display does: it decides what a picture on the processor costs

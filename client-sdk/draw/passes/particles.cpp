@@ -281,13 +281,14 @@ std::vector<Particle> particles_of(const picture::RenderScene& scene, const Vec3
   return out;
 }
 
-std::vector<Eigen::Vector4f> fire_lights(const picture::RenderScene& scene) {
+std::vector<Eigen::Vector4f> fire_lights(const picture::RenderScene& scene, FireLight light) {
   std::vector<Eigen::Vector4f> out;
   for (const picture::ParticleEffect& effect : scene.effects) {
     if (effect.kind != picture::ParticleEffect::Kind::fire || !is_drawable(effect) || out.size() == kMaxFires) continue;
     const Vec3f middle = effect.p_W + 1.2F * effect.size_m * Vec3f::UnitY();
     const auto t = static_cast<float>(std::fmod(scene.time_s, 1000.0));
-    const float flicker = 1 + 0.10F * std::sin(11.3F * t) + 0.07F * std::sin(23.7F * t + 1.3F);
+    const float flicker =
+        light == FireLight::steady ? 1 : 1 + 0.10F * std::sin(11.3F * t) + 0.07F * std::sin(23.7F * t + 1.3F);
     const float power = 18 * effect.size_m * effect.size_m * std::min(effect.intensity, 1.0F) * flicker;
     out.emplace_back(middle.x(), middle.y(), middle.z(), power);
   }

@@ -33,9 +33,12 @@ void append_splash(const picture::WaterStream& stream, std::uint32_t number, dou
 /// All particles of a scene, the farthest from the eye first.
 [[nodiscard]] std::vector<Particle> particles_of(const picture::RenderScene& scene, const Vec3f& p_WE);
 
+/// Whether a fire's light flickers with the world's time, or has its mean.
+enum class FireLight : std::uint8_t { flickering, steady };
+
 /// The light of the scene's first kMaxFires fires on nearby things: xyz is the flame's middle in W, w its irradiance at
-/// one metre. It flickers with the world's time.
-[[nodiscard]] std::vector<Eigen::Vector4f> fire_lights(const picture::RenderScene& scene);
+/// one metre.
+[[nodiscard]] std::vector<Eigen::Vector4f> fire_lights(const picture::RenderScene& scene, FireLight light);
 
 inline constexpr std::size_t kMaxFires = 4;
 

@@ -32,9 +32,9 @@ std::vector<ClearTriangle> from_back_to_front(const PassInput& input) {
 
 }  // namespace
 
-Expected<ClearPass> ClearPass::create() {
+Expected<ClearPass> ClearPass::create(Shading shading) {
   Expected<Program> program =
-      Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "material.glsl", "clear.frag"});
+      Program::link(shading, {"mesh.vert"}, {"sky.glsl", "lighting.glsl", "material.glsl", "clear.frag"});
   if (!program) return tl::unexpected(program.error());
   return ClearPass(std::move(*program));
 }

@@ -52,8 +52,7 @@ Expected<std::optional<MirrorImage>> MirrorPass::draw(const PassInput& input, co
                                                       const SkyPass& sky) {
   const std::optional<float> height_m = mirror_level_m(input.scene, input.assets, input.view);
   if (!height_m) return std::optional<MirrorImage>();
-  const picture::PixelSize half{std::max((input.target.size.width + 1) / 2, 1U),
-                                std::max((input.target.size.height + 1) / 2, 1U)};
+  const picture::PixelSize half{std::max((input.size.width + 1) / 2, 1U), std::max((input.size.height + 1) / 2, 1U)};
   const Expected<const MirrorTarget*> fitted = fit(half);
   if (!fitted) return tl::unexpected(fitted.error());
   const MirrorTarget& target = **fitted;
@@ -61,7 +60,7 @@ Expected<std::optional<MirrorImage>> MirrorPass::draw(const PassInput& input, co
   mark_water(input, *height_m);
   const picture::EyeView view = mirrored(input.view, *height_m);
   PassInput under{input.scene, input.assets, input.ropes,        input.soft_bodies, view,
-                  input.sky,   input.shadow, input.shadow_setup, input.target};
+                  input.sky,   input.shadow, input.shadow_setup, input.size,        input.depth_of_solid};
   under.clip_W = {0, 1, 0, -*height_m};
   glFrontFace(GL_CW);
   glEnable(GL_CLIP_DISTANCE0);

@@ -21,7 +21,7 @@ struct SolidPiece {
 /// The order is by logarithmic steps of distance, two per doubling, so that pieces of one thing stay together and the
 /// order changes little while something moves.
 std::vector<SolidPiece> from_front_to_back(const PassInput& input, bool land) {
-  const Eigen::Matrix4f PV = input.view.P * input.view.V_CW;
+  const Eigen::Matrix4f PV = input.crop * input.view.P * input.view.V_CW;
   std::vector<SolidPiece> out;
   for (std::uint32_t i = 0; i < input.scene.instances.size(); ++i) {
     const picture::Instance& instance = input.scene.instances[i];
@@ -60,14 +60,15 @@ void draw_solid(const std::vector<SolidPiece>& solid, const Program& program, co
 
 }  // namespace
 
-Expected<OpaquePass> OpaquePass::create() {
+Expected<OpaquePass> OpaquePass::create(Shading shading) {
   Expected<Program> surface =
-      Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "material.glsl", "surface.frag"});
+      Program::link(shading, {"mesh.vert"}, {"sky.glsl", "lighting.glsl", "material.glsl", "surface.frag"});
   if (!surface) return tl::unexpected(surface.error());
-  Expected<Program> rope = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "rope.frag"});
+  Expected<Program> rope =
+      Program::link(shading, {"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "rope.frag"});
   if (!rope) return tl::unexpected(rope.error());
   Expected<Program> ground =
-      Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "land.glsl", "ground.frag"});
+      Program::link(shading, {"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "land.glsl", "ground.frag"});
   if (!ground) return tl::unexpected(ground.error());
   GpuAssets plain;
   picture::SceneAssets assets;

@@ -14,8 +14,8 @@ constexpr std::size_t kParticleFloats = 11;
 
 }  // namespace
 
-Expected<ParticlePass> ParticlePass::create() {
-  Expected<Program> program = Program::link({"sky.glsl", "lighting.glsl", "particle.vert"},
+Expected<ParticlePass> ParticlePass::create(Shading shading) {
+  Expected<Program> program = Program::link(shading, {"sky.glsl", "lighting.glsl", "particle.vert"},
                                             {"sky.glsl", "lighting.glsl", "noise.glsl", "particle.frag"});
   if (!program) return tl::unexpected(program.error());
   ParticlePass pass(std::move(*program));
@@ -47,7 +47,7 @@ void ParticlePass::draw(const PassInput& input) const {
   program_.set("depth_to_m", Eigen::Vector2f(input.view.P(2, 2), input.view.P(2, 3)));
   program_.set("depth", kDepthUnit);
   glActiveTexture(GL_TEXTURE0 + kDepthUnit);
-  glBindTexture(GL_TEXTURE_2D, input.target.depth_copy.get());
+  glBindTexture(GL_TEXTURE_2D, input.depth_of_solid.get());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(particles.size()));
   end_blending();
 }

@@ -4,8 +4,9 @@
 
 namespace mechane::draw {
 
-Expected<SkyPass> SkyPass::create() {
-  Expected<Program> program = Program::link({"fullscreen.vert"}, {"sky.glsl", "noise.glsl", "clouds.glsl", "sky.frag"});
+Expected<SkyPass> SkyPass::create(Shading shading) {
+  Expected<Program> program =
+      Program::link(shading, {"fullscreen.vert"}, {"sky.glsl", "noise.glsl", "clouds.glsl", "sky.frag"});
   if (!program) return tl::unexpected(program.error());
   return SkyPass(std::move(*program), make_vertex_array());
 }
@@ -19,6 +20,7 @@ void SkyPass::draw(const PassInput& input) const {
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   program_.use();
+  if (input.low) set_low_light(program_, *input.low);
   program_.set("to_sun", Vec3f(input.scene.sun.to_sun_W.normalized()));
   Eigen::Matrix4f R_CW = Eigen::Matrix4f::Identity();
   R_CW.topLeftCorner<3, 3>() = input.view.V_CW.topLeftCorner<3, 3>();

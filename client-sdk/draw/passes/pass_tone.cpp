@@ -5,7 +5,7 @@
 namespace mechane::draw {
 
 Expected<TonePass> TonePass::create() {
-  Expected<Program> program = Program::link({"fullscreen.vert"}, {"tone.frag"});
+  Expected<Program> program = Program::link({"fullscreen.vert"}, {"tone.glsl", "tone.frag"});
   if (!program) return tl::unexpected(program.error());
   return TonePass(std::move(*program), make_vertex_array());
 }
@@ -20,14 +20,12 @@ void TonePass::draw(const HdrTarget& from, float exposure, const Extras& extras)
   program_.set("exposure", exposure);
   program_.set("bloom", 1);
   program_.set("openness", 2);
-  const bool with = extras.glow != nullptr && extras.openness != nullptr;
-  program_.set("bloom_share", with ? extras.glow_share : 0.0F);
-  program_.set("occlusion_share", with ? extras.occlusion_share : 0.0F);
-  if (with) {
-    glActiveTexture(GL_TEXTURE0 + 1);
-    glBindTexture(GL_TEXTURE_2D, extras.glow->get());
-    glActiveTexture(GL_TEXTURE0 + 2);
-    glBindTexture(GL_TEXTURE_2D, extras.openness->get());
+  program_.set("bloom_share", extras.glow != nullptr ? extras.glow_share : 0.0F);
+  program_.set("occlusion_share", extras.openness != nullptr ? extras.occlusion_share : 0.0F);
+  int unit = 1;
+  for (const TextureName* texture : {extras.glow, extras.openness}) {
+    glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit++));
+    if (texture != nullptr) glBindTexture(GL_TEXTURE_2D, texture->get());
   }
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, from.colour.get());

@@ -31,10 +31,12 @@ void end_blending() {
 WaterPass::WaterPass(Program surface, Program stream)
     : surface_(std::move(surface)), stream_(std::move(stream)), tube_(StreamedMesh::create()) {}
 
-Expected<WaterPass> WaterPass::create() {
-  Expected<Program> surface = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "water.frag"});
+Expected<WaterPass> WaterPass::create(Shading shading) {
+  Expected<Program> surface =
+      Program::link(shading, {"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "water.frag"});
   if (!surface) return tl::unexpected(surface.error());
-  Expected<Program> stream = Program::link({"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "stream.frag"});
+  Expected<Program> stream =
+      Program::link(shading, {"mesh.vert"}, {"sky.glsl", "lighting.glsl", "noise.glsl", "stream.frag"});
   if (!stream) return tl::unexpected(stream.error());
   return WaterPass(std::move(*surface), std::move(*stream));
 }
@@ -60,7 +62,7 @@ void WaterPass::draw_surfaces(const PassInput& input) const {
   surface_.set("depth", kDepthOfSolidUnit);
   surface_.set("depth_to_m", Eigen::Vector2f(input.view.P(2, 2), input.view.P(2, 3)));
   glActiveTexture(GL_TEXTURE0 + kDepthOfSolidUnit);
-  glBindTexture(GL_TEXTURE_2D, input.target.depth_copy.get());
+  glBindTexture(GL_TEXTURE_2D, input.depth_of_solid.get());
   surface_.set("mirror", kMirrorUnit);
   glActiveTexture(GL_TEXTURE0 + kMirrorUnit);
   glBindTexture(GL_TEXTURE_2D, input.mirror ? input.mirror->picture->get() : 0);

@@ -22,6 +22,14 @@ struct MirrorImage {
   float height_m = 0;  ///< y in W
 };
 
+/// What the qualities `low` and `cached` add to a pass's input.
+struct LowLight {
+  float exposure = 1;
+  const ShadowTarget* mover_shadow = nullptr;  ///< null: nothing moves, or its shadows are added later
+  const ShadowSetup* mover_setup = nullptr;    ///< of that one map
+  bool of_movers = false;                      ///< what is drawn is in that map itself
+};
+
 /// What every pass of one eye's picture needs.
 struct PassInput {
   const picture::RenderScene& scene;
@@ -32,9 +40,12 @@ struct PassInput {
   const SkyLight& sky;
   const ShadowTarget& shadow;
   const ShadowSetup& shadow_setup;
-  const HdrTarget& target;             ///< where the passes draw
+  picture::PixelSize size;             ///< of the target where the passes draw
+  const TextureName& depth_of_solid;   ///< of all that is solid there, once it is drawn
   Eigen::Vector4f clip_W{0, 0, 0, 1};  ///< a plane: with GL_CLIP_DISTANCE0, nothing below it is drawn
   std::optional<MirrorImage> mirror{};
+  std::optional<LowLight> low{};                       ///< for programs with Shading::screen
+  Eigen::Matrix4f crop = Eigen::Matrix4f::Identity();  ///< from clip space to that of the part which is drawn
 };
 
 /// Shadow maps from the sun, shared by both eyes; a map is drawn again only when something has moved that casts a
@@ -65,7 +76,7 @@ class ShadowPass {
 /// also with meshes of small triangles on a software renderer.)
 class OpaquePass {
  public:
-  [[nodiscard]] static Expected<OpaquePass> create();
+  [[nodiscard]] static Expected<OpaquePass> create(Shading shading);
   void draw(const PassInput& input) const;
 
  private:
@@ -82,7 +93,7 @@ class OpaquePass {
 /// The sky, where nothing solid was drawn.
 class SkyPass {
  public:
-  [[nodiscard]] static Expected<SkyPass> create();
+  [[nodiscard]] static Expected<SkyPass> create(Shading shading);
   void draw(const PassInput& input) const;
 
  private:
@@ -115,7 +126,7 @@ class MirrorPass {
 /// Surfaces of water and falling water, blended over what is solid. Needs the target's resolved depth.
 class WaterPass {
  public:
-  [[nodiscard]] static Expected<WaterPass> create();
+  [[nodiscard]] static Expected<WaterPass> create(Shading shading);
   void draw(const PassInput& input);
 
  private:
@@ -132,7 +143,7 @@ class WaterPass {
 /// water.
 class ClearPass {
  public:
-  [[nodiscard]] static Expected<ClearPass> create();
+  [[nodiscard]] static Expected<ClearPass> create(Shading shading);
   void draw(const PassInput& input) const;
 
  private:
@@ -143,7 +154,7 @@ class ClearPass {
 /// Steam, smoke, fire, dust, drops: over everything else. Needs the target's resolved depth.
 class ParticlePass {
  public:
-  [[nodiscard]] static Expected<ParticlePass> create();
+  [[nodiscard]] static Expected<ParticlePass> create(Shading shading);
   void draw(const PassInput& input) const;
 
  private:
@@ -199,8 +210,8 @@ class AmbientOcclusionPass {
 class TonePass {
  public:
   struct Extras {
-    const TextureName* glow = nullptr;  ///< null: neither glow nor ambient occlusion
-    const TextureName* openness = nullptr;
+    const TextureName* glow = nullptr;      ///< null: none
+    const TextureName* openness = nullptr;  ///< null: no ambient occlusion
     float glow_share = 0;
     float occlusion_share = 0;
   };
@@ -233,5 +244,7 @@ void end_blending();
 
 /// Sets the uniforms of sky.glsl and lighting.glsl; texture units 4 and 6 hold the shadow maps, 7 the sky.
 void set_lighting(const Program& program, const PassInput& input);
+/// Sets the uniforms of low.glsl and tone.glsl; texture unit 9 holds the movers' shadow map.
+void set_low_light(const Program& program, const LowLight& low);
 
 }  // namespace mechane::draw

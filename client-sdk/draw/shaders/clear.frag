@@ -13,5 +13,5 @@ void main() {
   float fresnel = 0.04 + max(0.96 - s.roughness, 0.0) * pow(1.0 - nv, 5.0);
   float cover = opacity + (1.0 - opacity) * fresnel;
   vec3 light = (diffuse * opacity + mirrored) / cover;
-  colour = vec4(through_air(light, p_W) * cover + glow * opacity, cover);
+  colour = finish(vec4(through_air(light, p_W) * cover + glow * opacity, cover));
 }

@@ -21,5 +21,5 @@ void main() {
   // Where it meets the plain its normal becomes vertical, or the sloping rim would be visible by its shading.
   n = normalize(mix(n, vec3(0.0, 1.0, 0.0), 1.0 - smoothstep(0.02, 0.12, abs(p_W.y - plain_height_m))));
   Surface s = Surface(land_base(base_image, q, distance(eye_W, p_W)), 0.0, 0.95, land_normal(normal_image, q, n), 1.0);
-  colour = vec4(through_air(shade(s, p_W, n), p_W), 1.0);
+  colour = finish(vec4(through_air(shade(s, p_W, n), p_W), 1.0));
 }

@@ -5,6 +5,9 @@ const float kLandTile_m = 1.9;
 // A pixel's footprint on the land is much longer than wide. One sample from a mip level for its length would blur it
 // sideways, so four samples are taken along it.
 vec4 lying(sampler2D image, vec2 uv) {
+#ifdef LOW
+  return texture(image, uv);
+#else
   vec2 broad = dFdx(uv);
   vec2 far = dFdy(uv);
   if (dot(broad, broad) > dot(far, far)) {
@@ -16,6 +19,7 @@ vec4 lying(sampler2D image, vec2 uv) {
   for (int i = 0; i < 4; ++i)
     sum += textureGrad(image, uv + (float(i) * 0.25 - 0.375) * far, broad, far * 0.25);
   return sum * 0.25;
+#endif
 }
 
 // The land's colour and normal at distance `far_m` from the eye, without detail finer than a pixel.

@@ -43,6 +43,13 @@ float sunlight_of(int k, vec3 p_L, vec3 n_L, bool asked) {
   p_L += n_L * c.w * (1.0 + 2.5 * (1.0 - clamp(-n_L.z, 0.0, 1.0)));
   float across = 0.5 / c.z;
   vec3 q = vec3((p_L.xy - c.xy) * across + 0.5, (min(p_L.z - shadow_range.x, shadow_range.y) - 0.0015 - 0.5 * c.w) / shadow_range.y);
+#ifdef LOW
+  int taps = asked ? low_taps() : 0;
+  float sum = 0.0;
+  for (int i = 0; i < taps; ++i)
+    sum += texture(shadow_maps, vec4(q.xy + low_tap(i) * (0.75 * c.w * across), float(k), q.z));
+  return sum / float(max(taps, 1));
+#else
   float search_m = clamp(0.05, 1.5 * c.w, 14.0 * c.w);
   float blocked = 0.0;
   float depth = 0.0;
@@ -64,6 +71,7 @@ float sunlight_of(int k, vec3 p_L, vec3 n_L, bool asked) {
     turn = kGoldenTurn * turn;
   }
   return fine > 0 ? sum / 16.0 : blocked > 0.5 ? 0.0 : 1.0;
+#endif
 }
 
 // The share of the sun that arrives: from the narrowest map that reaches here, blended with the next one towards its edge.
@@ -79,7 +87,11 @@ float sunlight(vec3 p_W, vec3 n_geometric) {
     sum += share * sunlight_of(k, p_L, n_L, share > 0.0);
     rest -= share;
   }
+#ifdef LOW
+  return (sum + rest) * sun_past_movers(p_W, n_geometric);
+#else
   return sum + rest;
+#endif
 }
 
 // The share of the sky that small spheres leave visible, by their solid angle about the normal.
@@ -143,6 +155,9 @@ void shade_apart(Surface s, vec3 p_W, vec3 n_geometric, out vec3 body, out vec3 
     vec3 arriving = sun_irradiance * nl * sun * mix(1.0, open, 0.35);
     body += (1.0 - f) * diffuse / kPi * arriving;
     mirrored += ggx * visible * f * arriving;
+#ifdef LOW
+    from_sun = body + mirrored;
+#endif
   }
   vec2 split = environment_factor(s.roughness, nv);
   // The occlusion image darkens only the sky's light; shadow maps handle the sun.
@@ -166,5 +181,9 @@ vec3 shade(Surface s, vec3 p_W, vec3 n_geometric) {
 // Clear nearby, and hazy beyond some hundred metres.
 vec3 through_air(vec3 light, vec3 p_W) {
   float far = distance(eye_W, p_W) * 0.0030;
-  return mix(light, haze_colour(), sky_on * (1.0 - exp(-far * sqrt(far))));
+  float haze = sky_on * (1.0 - exp(-far * sqrt(far)));
+#ifdef LOW
+  from_sun *= 1.0 - haze;
+#endif
+  return mix(light, haze_colour(), haze);
 }

@@ -21,7 +21,11 @@ void main() {
     body = smoothstep(1.0, 0.55, r);
   } else {
     vec2 q = turned * 1.9 + look.y * vec2(61.0, 37.0);
+#ifdef LOW
+    float lumps = value_noise(q * 1.4);
+#else
     float lumps = value_noise(q) * 0.62 + value_noise(q * 2.6 + 11.0) * 0.38;
+#endif
     body = smoothstep(1.0, 0.10, r + (0.5 - lumps) * 0.75) * smoothstep(1.0, 0.8, r);
   }
   // A puff fades out in front of a wall, and near the eye.
@@ -30,7 +34,7 @@ void main() {
   float opacity = tint.a * body * clamp(behind_m / (0.5 * radius + 0.002), 0.0, 1.0) * clamp(z_m * 4.0 - 0.4, 0.0, 1.0);
   if (look.z > 1.5) {
     // Flames add their light and hide nothing.
-    colour = vec4(tint.rgb * opacity * body, 0.0);
+    colour = finish(vec4(tint.rgb * opacity * body, 0.0));
     return;
   }
   vec3 n_C = vec3(place, sqrt(max(1.0 - r * r, 0.0)));
@@ -42,5 +46,5 @@ void main() {
     vec3 v = normalize(eye_W - p_W);
     light = light * 0.55 + reflected_sky(reflect(-v, n), 0.1) * 0.45 + sun_irradiance * sun * 0.5 * pow(max(dot(reflect(-v, n), to_sun), 0.0), 24.0);
   }
-  colour = vec4(through_air(light * tint.rgb, p_W) * opacity, opacity);
+  colour = finish(vec4(through_air(light * tint.rgb, p_W) * opacity, opacity));
 }

@@ -23,5 +23,5 @@ void main() {
   float fibre = value_noise(vec2(across * 9.0 + strand * 17.0, uv.y * 0.9)) * 0.6 + value_noise(vec2(across * 23.0 + strand * 31.0, uv.y * 2.3)) * 0.4;
   vec3 hemp = mix(vec3(0.30, 0.205, 0.10), vec3(0.52, 0.385, 0.205), mix(0.5, fibre, detail));
   Surface s = Surface(hemp * groove, 0.0, 0.92, bulged, 1.0);
-  colour = vec4(through_air(shade(s, p_W, n), p_W), 1.0);
+  colour = finish(vec4(through_air(shade(s, p_W, n), p_W), 1.0));
 }

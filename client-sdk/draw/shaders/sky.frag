@@ -29,5 +29,5 @@ void main() {
   sky = mix(sky, near_hills, smoothstep(soft, -soft, elevation - hills(d, 9.0, 0.026)));
   sky = mix(sky, groves, smoothstep(soft, -soft, elevation - trees(d)));
   float disc = smoothstep(0.99985, 0.99995, dot(d, to_sun));
-  colour = vec4(sky + disc * vec3(12.0, 10.5, 8.0), 1.0);
+  colour = finish(vec4(sky + disc * vec3(12.0, 10.5, 8.0), 1.0));
 }

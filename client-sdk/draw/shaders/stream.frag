@@ -24,5 +24,5 @@ void main() {
     float lump = value_noise(vec2(uv.x * 2.0, (uv.y - time_s) * lumps_per_s)) * 0.7 + value_noise(vec2(uv.x * 5.0, (uv.y - time_s) * lumps_per_s * 2.3)) * 0.3;
     opacity *= smoothstep(gone - 0.18, gone + 0.18, lump);
   }
-  colour = vec4(through_air(light, p_W) * opacity, opacity);
+  colour = finish(vec4(through_air(light, p_W) * opacity, opacity));
 }

@@ -3,5 +3,5 @@ void main() {
   float opacity;
   vec3 glow;
   Surface s = material(n, opacity, glow);
-  colour = vec4(through_air(shade(s, p_W, n), p_W) + glow, 1.0);
+  colour = finish(vec4(through_air(shade(s, p_W, n), p_W) + glow, 1.0));
 }

@@ -17,6 +17,13 @@ uniform vec2 depth_to_m;  // of clip space: distance before the eye = y / (x + d
 uniform sampler2D mirror;  // the surroundings as mirrored by still water; opacity 0: nothing was drawn
 uniform bool mirrors;
 
+#ifdef LOW
+const int kWaves = 3;
+const int kLayers = 2;
+#else
+const int kWaves = 5;
+const int kLayers = 3;
+#endif
 // The distance to the mirrored thing: the nearer it is, the less a ripple shifts it.
 const float kMirrored_m = 0.8;
 
@@ -26,7 +33,7 @@ vec2 waves(vec2 q) {
   float strength = 0.050;
   float length_m = 0.85;
   float a = 0.4;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < kWaves; ++i) {
     vec2 d = vec2(cos(a), sin(a));
     float k = 6.2831853 / length_m;
     sum += d * cos(k * dot(d, q) - sqrt(9.81 * k) * time_s) * strength;
@@ -43,7 +50,7 @@ vec2 unrest(vec2 q, vec2 along, float speed) {
   vec2 sum = vec2(0.0);
   float size = 1.3;
   float share = 1.0;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < kLayers; ++k) {
     vec2 p = vec2(dot(q, along) - speed * share * time_s, 2.4 * dot(q, across)) * size + 17.0 * float(k);
     float h = value_noise(p);
     sum += along * (value_noise(p + vec2(0.25, 0.0)) - h) + 1.6 * across * (value_noise(p + vec2(0.0, 0.25)) - h);
@@ -70,6 +77,9 @@ float depth_of_water(vec3 n) {
 
 vec3 mirrored_about(vec3 r) {
   vec3 sky = reflected_sky(r, 0.05);
+#ifdef LOW
+  return sky;
+#else
   if (!mirrors) return sky;
   vec3 q = p_W + r * kMirrored_m;
   q.y = 2.0 * p_W.y - q.y;
@@ -78,6 +88,7 @@ vec3 mirrored_about(vec3 r) {
   // Beyond the water's edge nothing was drawn: there, use the mirror image of still water.
   if (seen.a < 0.3) seen = texture(mirror, gl_FragCoord.xy / vec2(textureSize(depth, 0)));
   return seen.a < 0.1 ? sky : seen.rgb / seen.a;
+#endif
 }
 
 void main() {
@@ -114,5 +125,5 @@ void main() {
     light = mix(light, 0.8 * (from_above + sun_irradiance / kPi * sun * max(to_sun.y, 0.0)), foam);
     opacity = mix(opacity, 1.0, foam);
   }
-  colour = vec4(through_air(light / max(opacity, 1e-3), p_W) * opacity, opacity);
+  colour = finish(vec4(through_air(light / max(opacity, 1e-3), p_W) * opacity, opacity));
 }

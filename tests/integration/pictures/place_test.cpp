@@ -142,14 +142,20 @@ class PlacePictures : public testing::TestWithParam<const char*> {
     auto context = draw::make_offscreen_context(kPicture);
     ASSERT_TRUE(context.has_value()) << context.error().to_string();
     context_ = std::move(*context);
-    auto renderer = draw::Renderer::create({});
-    ASSERT_TRUE(renderer.has_value()) << renderer.error().to_string();
-    renderer_ = std::move(*renderer);
+    renderer_ = make_renderer();
   }
   // The renderer's objects go before their context.
   void TearDown() override {
     renderer_.reset();
     context_.reset();
+  }
+
+  static std::unique_ptr<draw::Renderer> make_renderer(draw::Quality quality = draw::Quality::high) {
+    draw::RendererSettings settings;
+    settings.quality = quality;
+    auto renderer = draw::Renderer::create(settings);
+    EXPECT_TRUE(renderer.has_value()) << renderer.error().to_string();
+    return renderer ? std::move(*renderer) : nullptr;
   }
 
   picture::ImageData draw(const picture::SceneAssets& assets, const picture::RenderScene& scene,
@@ -202,6 +208,105 @@ INSTANTIATE_TEST_SUITE_P(All, PlacePictures,
                            std::ranges::replace(name, '-', '_');
                            return name;
                          });
+
+/// A visit goes on from its third moment to its last, in front of a view that stays: hands, parts, water and shadows are
+/// elsewhere then.
+class KeptPictures : public PlacePictures {
+ protected:
+  void open(const std::string& name) {
+    place_.emplace(name);
+    first_ = place_->scene(2);
+    last_ = place_->scene(3);
+    last_.camera = first_.camera;
+    last_.inset = first_.inset;
+    last_.effects = first_.effects;  // fires of another strength would be another light, for which all is drawn anew
+  }
+
+  /// The last moment, in this quality.
+  [[nodiscard]] picture::ImageData last_moment(draw::Quality quality) const {
+    const std::unique_ptr<draw::Renderer> renderer = make_renderer(quality);
+    renderer->upload(place_->assets());
+    // Until what stands still is known and kept; then in motion.
+    const auto turns = static_cast<int>(draw::LowRenderer::kStill) + 2;
+    for (int turn = 0; turn < turns; ++turn)
+      EXPECT_TRUE(renderer->draw(first_, picture::Stereo::mono, kPicture));
+    EXPECT_TRUE(renderer->draw(last_, picture::Stereo::mono, kPicture));
+    if (quality == draw::Quality::cached) {
+      EXPECT_GT(renderer->low()->times_kept(), 0U);
+    }
+    return renderer->read_picture();
+  }
+
+  /// The share of pixels that differ by more than a hundredth of the range.
+  static double differing(const picture::ImageData& a, const picture::ImageData& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+      int most = 0;
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        most = std::max(most, std::abs(int{a.rgba[i + channel]} - int{b.rgba[i + channel]}));
+      count += most > 3 ? 1 : 0;
+    }
+    return static_cast<double>(count) / (static_cast<double>(a.rgba.size()) / 4);
+  }
+  static constexpr double kMostDiffering = 0.0005;
+
+ private:
+  std::optional<Place> place_;
+  picture::RenderScene first_;
+  picture::RenderScene last_;
+};
+
+TEST_P(KeptPictures, are_in_motion_as_if_all_had_been_drawn_anew) {
+  open(GetParam());
+  const picture::ImageData whole = last_moment(draw::Quality::low);
+  const picture::ImageData kept = last_moment(draw::Quality::cached);
+  const double share = differing(whole, kept);
+  std::cout << GetParam() << ": " << 1e3 * share << " of a thousand pixels differ\n";
+  if (const char* folder = std::getenv("MECHANE_TEST_PICTURES"); folder != nullptr) {
+    EXPECT_TRUE(picture::write_png(whole, std::string(folder) + "/" + GetParam() + "-low.png"));
+    EXPECT_TRUE(picture::write_png(kept, std::string(folder) + "/" + GetParam() + "-cached.png"));
+  }
+  EXPECT_LT(share, kMostDiffering);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, KeptPictures,
+                         testing::Values("village", "archimedes-screw", "ktesibios-pump", "pulley-crane",
+                                         "compound-pulley-crane", "catapult", "crossbow", "aiolos-sphere", "odometer"),
+                         [](const auto& place) {
+                           std::string name = place.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+PFNGLBLITFRAMEBUFFERPROC real_blit = nullptr;
+PFNGLSCISSORPROC real_scissor = nullptr;
+using KeptFaults = KeptPictures;
+
+TEST_F(KeptFaults, a_depth_that_is_not_restored_is_seen) {
+  open("odometer");
+  const picture::ImageData whole = last_moment(draw::Quality::low);
+  real_blit = epoxy_glBlitFramebuffer;
+  epoxy_glBlitFramebuffer = [](GLint x0, GLint y0, GLint x1, GLint y1, GLint tx0, GLint ty0, GLint tx1, GLint ty1,
+                               GLbitfield what, GLenum filter) {
+    real_blit(x0, y0, x1, y1, tx0, ty0, tx1, ty1, what & ~static_cast<GLbitfield>(GL_DEPTH_BUFFER_BIT), filter);
+  };
+  const picture::ImageData faulty = last_moment(draw::Quality::cached);
+  epoxy_glBlitFramebuffer = real_blit;
+  EXPECT_GT(differing(whole, faulty), kMostDiffering);
+}
+
+TEST_F(KeptFaults, regions_that_are_too_small_are_seen) {
+  open("odometer");
+  const picture::ImageData whole = last_moment(draw::Quality::low);
+  real_scissor = epoxy_glScissor;
+  epoxy_glScissor = [](GLint x, GLint y, GLsizei width, GLsizei height) {
+    const bool all = width == static_cast<GLsizei>(kPicture.width);
+    real_scissor(x, y, all ? width : width / 2, height);
+  };
+  const picture::ImageData faulty = last_moment(draw::Quality::cached);
+  epoxy_glScissor = real_scissor;
+  EXPECT_GT(differing(whole, faulty), kMostDiffering);
+}
 
 /// Draws the telling moment of a place well, and with a fault; both against what was accepted.
 class PlantedFault : public PlacePictures {

@@ -30,6 +30,7 @@ struct DisplaySettings {
   double home_after_s = 0;      ///< home-after: 0 .. 86400 s without a visitor; 0: never
   bool attract = true;          ///< attract: on, off; shows the recorded visit, if one was given, while nobody is there
   double attract_after_s = 120;  ///< attract-after: 5 .. 86400 s without a visitor
+  std::string quality = "auto";  ///< quality: auto, high, medium, low, cached
   friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
 };
 
