@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 
 #include "client-sdk/picture/scene_parts.hpp"
 
@@ -20,7 +20,10 @@ struct InstanceKey {
 
   explicit InstanceKey(const picture::Instance& instance);
   [[nodiscard]] Eigen::Affine3f pose() const;
-  friend auto operator<=>(const InstanceKey&, const InstanceKey&) = default;
+  friend bool operator==(const InstanceKey&, const InstanceKey&) = default;
+  friend bool operator<(const InstanceKey& a, const InstanceKey& b) {
+    return std::tie(a.mesh, a.material, a.casts_shadow, a.X_WM) < std::tie(b.mesh, b.material, b.casts_shadow, b.X_WM);
+  }
 };
 
 class Stillness {
