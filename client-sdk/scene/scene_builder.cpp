@@ -372,7 +372,8 @@ void SceneBuilder::add_hands(const client::Frame& frame, const client::WorldStat
     hand_.draw(hand, camera_, out);
     if (forces_shown_) arrow_.draw(hand, camera_, out);
     if (hand.stale) continue;
-    WorkingHand& working = hands.emplace_back(Eigen::AlignedBox3d(), hand.holding);
+    WorkingHand& working = hands.emplace_back();
+    working.holding = hand.holding;
     for (const picture::Occluder& segment : std::span(out.occluders).subspan(before)) {
       const Vec3 p_W = segment.p_WO.cast<double>();
       working.box_W.extend(Eigen::AlignedBox3d(p_W - Vec3::Constant(kFinger_m), p_W + Vec3::Constant(kFinger_m)));
