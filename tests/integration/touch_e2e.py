@@ -110,7 +110,9 @@ class Touch(EndToEnd):
         server = self.server(scenario=scenario_of("village"), records=False)
         size = "x".join(map(str, SIZE))
         with self.screen(size) as environment:
-            window = self.start("window", "display", "--kiosk", "wall", "--size", size, "--mute", "--out", self.folder / "pictures", environment=environment)
+            # In `high` the same scene is the same picture, to the bit.
+            window = self.start("window", "display", "--kiosk", "wall", "--size", size, "--quality", "high", "--mute",
+                                "--out", self.folder / "pictures", environment=environment)
             visitor = TouchVisitor(scenario_of("village"), "wall", SIZE, environment)
             self.addCleanup(visitor.stop)
             wait_until(lambda: {d["link"] for d in self.displays().values()} == {"joined"}, 30, "the window shows the village")
