@@ -12,8 +12,8 @@ constexpr double kAbove = 0.90;
 constexpr double kBelow = 0.34;
 constexpr double kAside = 0.50;  // of its half width
 // The view rests while its window is no larger than this, compared with what is needed; a new one is a little larger.
-constexpr double kLarger = 1.3;
-constexpr double kRoomy = 1.1;
+constexpr double kLarger = 1.2;
+constexpr double kRoomy = 1.03;
 // A side of the place of work is still used while hands come as near to it, compared with the whole place.
 constexpr double kNear = 0.1;
 // It grows by so much more than it must, so that a next round that goes a hair further moves nothing.
