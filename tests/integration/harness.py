@@ -142,7 +142,7 @@ class EndToEnd(unittest.TestCase):
         self.pictures = getattr(self, "pictures", 0) + 1
         file = self.folder / f"pictures/request-{self.pictures:03}-mono.png"
         display.process.send_signal(signal.SIGUSR1)
-        wait_until(file.exists, 20, f"picture {self.pictures} was taken")
+        wait_until(file.exists, 60, f"picture {self.pictures} was taken")
         return file.read_bytes()
 
     def still_picture(self, display, seconds=0):
