@@ -11,7 +11,8 @@ namespace {
 constexpr double kAbove = 0.90;
 constexpr double kBelow = 0.34;
 constexpr double kAside = 0.50;  // of its half width
-// The view rests while its window is no larger than this, compared with what is needed; a new one is a little larger.
+// The window is changed when it is too small, or larger than needed by more than the first factor. It is then made larger
+// than needed by the second one.
 constexpr double kLarger = 1.2;
 constexpr double kRoomy = 1.03;
 // A side of the place of work is still used while hands come as near to it, compared with the whole place.

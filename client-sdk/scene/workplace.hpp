@@ -24,8 +24,8 @@ struct StandingObject {
 using StandingObjects = std::function<StandingObject(std::uint32_t object)>;
 
 /// With hands: contains them, the nearest place of each object that a free hand can take, and where an object belongs
-/// that a hand holds, or the arc on which it turns it. Without hands: all that can be taken, and where it belongs. Empty: nothing can be taken in this
-/// step. `enabled` has its enabled agents.
+/// that a hand holds, or the arc on which it turns it. Without hands: all that can be taken, and where it belongs.
+/// Empty: nothing can be taken in this step. `enabled` has the step's enabled agents.
 [[nodiscard]] Eigen::AlignedBox3d workplace(std::span<const WorkingHand> hands,
                                             std::span<const client::Affordance> affordances,
                                             std::span<const std::string> enabled, const StandingObjects& standing);

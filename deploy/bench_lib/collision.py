@@ -147,7 +147,8 @@ def _wall(metrics: dict[str, float]) -> list[list[str]]:
     rows = [["falling wall of 30 blocks", "step us", "p99", "overlap mm", "p99", "max", "pairs"]]
     for name in WALL:
         rows.append([NAMES[name], *(_shown(metrics, f"wall_step_us.{name}.{q}") for q in ("median", "p99")),
-                     *(_shown(metrics, f"wall.{name}.{figure}") for figure in ("overlap_mm.median", "overlap_mm.p99", "overlap_mm.max", "overlaps"))])
+                     *(_shown(metrics, f"wall.{name}.overlap_mm.{q}") for q in ("median", "p99", "max")),
+                     _shown(metrics, f"wall.{name}.overlaps")])
     return rows if f"wall_step_us.{WALL[0]}.median" in metrics else []
 
 
@@ -245,7 +246,8 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
     balls = {kind: _cost(metrics, kind) for kind in ("closed", "scan")}
     if all(balls.values()):
         made.append(out / "collision-build.svg")
-        lines(made[-1], "Building a ball for touch, from nothing", f"processor time of all cores. {machine}", balls, "triangles, as a power of ten", "s")
+        lines(made[-1], "Building a ball for touch, from nothing", f"processor time of all cores. {machine}", balls,
+              "triangles, as a power of ten", "s")
     if "paper_map_mm" in result.curves:
         made.append(out / "collision-map.svg")
         _plot_map(made[-1], result.curves["paper_map_mm"])

@@ -9,7 +9,8 @@ from plots import bars, number
 PROGRAM_LIMIT_S = 600
 SCENES = ("village", "odometer")
 PICTURES = (("mono", 1280, 720), ("mono", 1920, 1080), ("quad", 1280, 720), ("quad", 1920, 1080))  # quad: two eyes, each of the full size
-PLACES = ("village", "archimedes-screw", "ktesibios-pump", "pulley-crane", "compound-pulley-crane", "catapult", "crossbow", "aiolos-sphere", "odometer")
+PLACES = ("village", "archimedes-screw", "ktesibios-pump", "pulley-crane", "compound-pulley-crane", "catapult", "crossbow", "aiolos-sphere",
+          "odometer")
 QUALITIES = ("cached", "low")
 CORES = 2  # whose processor time fps counts, however many there are and whatever else they do
 FRAMES_PER_S = 1  # that the slowest machine draws: the time given says how many pictures count
@@ -30,41 +31,32 @@ def _key(scene: str, stereo: str, height: int) -> str:
 def measure(context) -> tuple[Measured, list[str]]:
     result, missing, drawn_by = Measured(), [], set()
     frames = max(5, int(context.seconds * FRAMES_PER_S / len(PICTURES)))
+
+    def draw(key: str, scene: str, *options: str) -> None:
+        scenario = str(context.root / f"scenarios/{scene}/{scene}.x3d")
+        print(f"  bench_display, {key}, {frames} pictures ...", flush=True)
+        try:
+            one = own(context.bin, "bench_display", [scenario, *options, "--frames", str(frames)], PROGRAM_LIMIT_S)
+        except Missing as reason:
+            missing.append(f"display: {reason}")
+            return
+        drawn_by.update(one.notes)
+        result.metrics.update({f"{key}.{name}": value for name, value in one.metrics.items()})
+
     for scene in SCENES:
-        scenario = context.root / f"scenarios/{scene}/{scene}.x3d"
         for stereo, width, height in PICTURES:
-            print(f"  bench_display, {scene}, {stereo} {width}x{height}, {frames} pictures ...", flush=True)
-            try:
-                one = own(context.bin, "bench_display", [str(scenario), "--stereo", stereo, "--width", str(width), "--height", str(height), "--frames", str(frames)],
-                          PROGRAM_LIMIT_S)
-            except Missing as reason:
-                missing.append(f"display: {reason}")
-                continue
-            drawn_by.update(one.notes)
-            result.metrics |= {f"{_key(scene, stereo, height)}.{name}": value for name, value in one.metrics.items()}
+            draw(_key(scene, stereo, height), scene, "--stereo", stereo, "--width", str(width), "--height", str(height))
     for scene in SCENES:
         add_ratio(result.metrics, scene)
+    # Each place in the third moment of its recorded visit, hands and parts moving; the village for two eyes as well.
     for quality in QUALITIES:
-        measure_moving(context, quality, frames, result, missing, drawn_by)
+        for place in PLACES:
+            visit = str(context.root / f"tests/golden/scenes/{place}.frames")
+            for stereo in ("mono", "quad") if place == "village" else ("mono",):
+                draw(f"moving.{quality}.{stereo}.{place}", place, "--quality", quality, "--stereo", stereo, "--visit", visit)
     add_frames_a_second(result.metrics)
     result.notes += [f"drawn by {name}" for name in sorted(drawn_by)]
     return result, missing
-
-
-def measure_moving(context, quality: str, frames: int, result: Measured, missing: list[str], drawn_by: set[str]) -> None:
-    """Each place in the third moment of its recorded visit, hands and parts moving; the village for two eyes as well."""
-    for place in PLACES:
-        for stereo in ("mono", "quad") if place == "village" else ("mono",):
-            print(f"  bench_display, {place}, {quality}, {stereo}, things moving, {frames} pictures ...", flush=True)
-            try:
-                one = own(context.bin, "bench_display", [str(context.root / f"scenarios/{place}/{place}.x3d"), "--quality", quality, "--stereo", stereo,
-                                                         "--visit", str(context.root / f"tests/golden/scenes/{place}.frames"), "--frames", str(frames)],
-                          PROGRAM_LIMIT_S)
-            except Missing as reason:
-                missing.append(f"display: {reason}")
-                continue
-            drawn_by.update(one.notes)
-            result.metrics |= {f"moving.{quality}.{stereo}.{place}.{name}": value for name, value in one.metrics.items()}
 
 
 def add_frames_a_second(metrics: dict[str, float]) -> None:
@@ -113,7 +105,8 @@ def table(name: str, metrics: dict[str, float]) -> str:
 
 def plot(result: Measured, out, machine: str) -> list:
     rows = sorted(((metric.removesuffix(".cpu_ms.median").replace("mono720.", ""), value) for metric, value in result.metrics.items()
-                   if ".mono720." in metric and not metric.startswith("moving") and metric.endswith(".cpu_ms.median") and not metric.startswith("frame")), key=lambda row: -row[1])
+                   if ".mono720." in metric and metric.endswith(".cpu_ms.median") and not metric.startswith(("moving", "frame"))),
+                  key=lambda row: -row[1])
     rows = [(name, value) for name, value in rows if value >= 0.1]
     if not rows:
         return []

@@ -330,7 +330,7 @@ class CellMaker {
     if (is_too_large() || is_far_off(cell)) return made;
     const Samples samples = sampler_.sample(cell);
     const double block_m = sampler_.block_m();
-    // Where distances of places that lie close together are large, there is no surface between them.
+    // If two places are close together and both far from the surface, there is no surface between them.
     const auto is_off = [&](const SheetSample& s) { return s.distance_m > kNoCloser * cell.edge * block_m; };
     if (std::all_of(samples.begin(), samples.end(), is_off)) return made;
     const Samples judges = judges_of(cell, samples, witnesses_B);

@@ -23,7 +23,8 @@ struct FieldSource {
 
 /// Fits each block that the surface or the solid reaches: smooth, by sheets, or halved and each eighth fitted again, until no depth that
 /// is tried in it errs by more than needs.tolerance_m, or by more than needs.share of itself. Tried are places all over the block and the
-/// `witnesses` in it. Empty where it would hold more than `at_most` bytes, if equal leaves were not stored once. Uses all cores; same arguments, same bits.
+/// `witnesses` in it. Empty where it would hold more than `at_most` bytes if equal leaves were stored each time. Uses all cores; same
+/// arguments, same bits.
 [[nodiscard]] std::optional<collision::DistanceField> build_field(const FieldSource& source,
                                                                   const collision::DistanceField::Grid& grid,
                                                                   const BrickNeeds& needs,

@@ -263,7 +263,7 @@ void Mechanism::condense(std::span<const std::size_t> bodies, std::span<const Fr
 
 void Mechanism::respond(std::span<const Twist> pushes) noexcept {
   const std::size_t columns = 1 + kAxes * condensed_.size();
-  pushes_[0] = -1;  // of column 0 there is no push: it is the rest
+  pushes_[0] = -1;  // column 0 is what the rows want while nothing pushes the bodies
   for (std::size_t column = 1; column < columns; ++column) {
     const Twist& push = pushes[(column - 1) / kAxes];
     const auto axis = static_cast<Eigen::Index>((column - 1) % kAxes);

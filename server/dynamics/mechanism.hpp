@@ -21,7 +21,7 @@ inline constexpr std::size_t kGround = std::numeric_limits<std::size_t>::max(); 
 enum class RowLimit {
   none,      ///< an equality
   range,     ///< from low to high
-  friction,  ///< up to `high` times the size of the leader's impulse, either way; the leader is no equality
+  friction,  ///< from -`high` to `high` times the size of the leader's impulse; the leader must not be an equality
   sheave,    ///< low to high times the tension before the sheave: the leader's (negative) impulse and those since
 };
 

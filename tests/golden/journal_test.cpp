@@ -1,5 +1,5 @@
-// Journals of this release and of earlier ones: they replay, compared over the fields that their release hashed. Where bodies move otherwise
-// since, they are read and run to their end, and nothing is compared.
+// Journals of this release and of earlier ones: they replay, compared over the fields that their release hashed. Where bodies have moved
+// otherwise since, they are read and run to their end, and nothing is compared.
 //
 // Where the state has a new version, MECHANE_ACCEPT_GOLDEN=1 adds its journal. Those of earlier versions are never written again: each was
 // written by a server of its time.

@@ -34,8 +34,8 @@ class Touch(EndToEnd):
         server = self.server(scenario=scenario_of(scenario), records=False)
         size = "x".join(map(str, SIZE))
         with self.screen(size) as environment:
-            window = self.start("window", "display", "--kiosk", "wall", "--size", size, "--mute", "--still-view", "--ask", "none", "--out", self.folder / "pictures",
-                                environment=environment)
+            window = self.start("window", "display", "--kiosk", "wall", "--size", size, "--mute", "--still-view", "--ask", "none",
+                                "--out", self.folder / "pictures", environment=environment)
             visitor = TouchVisitor(scenario_of(scenario), "wall", SIZE, environment)
             visitor.server, visitor.window = server, window
             try:
@@ -185,8 +185,8 @@ class Touch(EndToEnd):
         except NoGlass as reason:
             self.skipTest(str(reason))
         self.addCleanup(glass.stop)
-        window = self.start("window", "display", "--kiosk", "wall", "--full-screen", "--size", "320x240", "--mute", "--still-view", "--ask", "none",
-                            environment=glass.environment)
+        window = self.start("window", "display", "--kiosk", "wall", "--full-screen", "--size", "320x240", "--mute", "--still-view",
+                            "--ask", "none", environment=glass.environment)
         visitor = TouchVisitor(scenario_of("aiolos-sphere"), "wall", glass.SIZE, glass.environment)
         self.addCleanup(visitor.stop)
         x, y = visitor.screen.pixel(placed(visitor.pose("TORCH"), [0, 0, 0.06]))

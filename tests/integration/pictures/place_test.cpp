@@ -200,14 +200,16 @@ TEST_P(PlacePictures, look_as_they_were_accepted) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlacePictures,
-                         testing::Values("village", "archimedes-screw", "ktesibios-pump", "pulley-crane",
-                                         "compound-pulley-crane", "catapult", "crossbow", "aiolos-sphere", "odometer"),
-                         [](const auto& place) {
-                           std::string name = place.param;
-                           std::ranges::replace(name, '-', '_');
-                           return name;
-                         });
+const auto kPlaces = testing::Values("village", "archimedes-screw", "ktesibios-pump", "pulley-crane",
+                                     "compound-pulley-crane", "catapult", "crossbow", "aiolos-sphere", "odometer");
+
+std::string test_name_of(const testing::TestParamInfo<const char*>& place) {
+  std::string name = place.param;
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlacePictures, kPlaces, test_name_of);
 
 /// A visit goes on from its third moment to its last, in front of a view that stays: hands, parts, water and shadows are
 /// elsewhere then.
@@ -269,14 +271,7 @@ TEST_P(KeptPictures, are_in_motion_as_if_all_had_been_drawn_anew) {
   EXPECT_LT(share, kMostDiffering);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, KeptPictures,
-                         testing::Values("village", "archimedes-screw", "ktesibios-pump", "pulley-crane",
-                                         "compound-pulley-crane", "catapult", "crossbow", "aiolos-sphere", "odometer"),
-                         [](const auto& place) {
-                           std::string name = place.param;
-                           std::ranges::replace(name, '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, KeptPictures, kPlaces, test_name_of);
 
 PFNGLBLITFRAMEBUFFERPROC real_blit = nullptr;
 PFNGLSCISSORPROC real_scissor = nullptr;
