@@ -65,14 +65,14 @@ std::map<std::uint64_t, client::RequestAnswer> answers_to(std::uint64_t id, clie
 
 /// Sends the request and prints each display's answer.
 int request(client::DisplayWatch& watch, const DisplaysOptions& options,
-            const std::vector<client::DisplaySetting>& settings, bool picture) {
+            const client::DisplayRequest& wanted) {
   const auto displays = find(watch, options);
   if (!displays) return tell(displays.error(), 1);
-  const auto id = watch.request(options.kiosk, options.display, settings, picture);
+  const auto id = watch.request(options.kiosk, options.display, wanted);
   if (!id) return tell(id.error(), 2);
   SystemClock clock;
   const TimePoint until =
-      clock.now() + duration_of(picture ? std::max(options.seconds, kPictureSeconds) : options.seconds);
+      clock.now() + duration_of(wanted.picture ? std::max(options.seconds, kPictureSeconds) : options.seconds);
   std::map<std::uint64_t, client::RequestAnswer> answers;
   while (answers.size() < displays->size() && clock.now() < until) {
     watch.wait(kLook);
@@ -85,7 +85,7 @@ int request(client::DisplayWatch& watch, const DisplaysOptions& options,
     if (refused) status = 1;
     const std::string word = answer == answers.end()           ? "no answer"
                              : !answer->second.refusal.empty() ? "refused: " + answer->second.refusal
-                             : picture                         ? display.host + ":" + answer->second.picture
+                             : wanted.picture                  ? display.host + ":" + answer->second.picture
                                                                : "done";
     (refused ? std::cerr : std::cout) << display.kiosk << "/" << display.display << ": " << word << "\n";
   }
@@ -95,13 +95,15 @@ int request(client::DisplayWatch& watch, const DisplaysOptions& options,
 }  // namespace
 
 int run_displays(const std::string& verb, const DisplaysOptions& options) {
-  std::vector<client::DisplaySetting> settings;
+  client::DisplayRequest wanted;
+  wanted.picture = verb == "picture";
+  wanted.restart = verb == "restart";
   client::DisplaySettings tried;
   for (const std::string& text : options.settings) {
     const auto setting = client::read_setting(text);
     if (!setting) return tell(setting.error(), 2);
     if (auto ok = client::apply(*setting, tried); !ok) return tell(ok.error(), 2);
-    settings.push_back(*setting);
+    wanted.settings.push_back(*setting);
   }
   if (!verb.empty() && options.kiosk.empty())
     return tell(Error{ErrorCode::missing, "no kiosk was named", "--kiosk",
@@ -109,7 +111,7 @@ int run_displays(const std::string& verb, const DisplaysOptions& options) {
                 2);
   auto watch = client::DisplayWatch::open(options.domain);
   if (!watch) return tell(watch.error(), 1);
-  if (!verb.empty()) return request(**watch, options, settings, verb == "picture");
+  if (!verb.empty()) return request(**watch, options, wanted);
   const auto displays = find(**watch, options);
   if (!displays) return tell(displays.error(), 1);
   std::cout << (options.json ? displays_json(*displays) : displays_table(*displays));

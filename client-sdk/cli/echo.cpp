@@ -368,7 +368,7 @@ Json to_json(const proto::DisplayStatus& s) {
 Json to_json(const proto::DisplayRequest& s) {
   Json j = head(s);
   j.update({{"kiosk", text(s.kiosk)}, {"display", text(s.display)}, {"session", s.session}, {"id", s.id}});
-  j.update({{"settings", settings(s.settings)}, {"picture", s.picture}});
+  j.update({{"settings", settings(s.settings)}, {"picture", s.picture}, {"restart", s.restart}});
   return j;
 }
 

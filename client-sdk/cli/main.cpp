@@ -109,7 +109,9 @@ CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
   set->add_option("settings", o.settings, "NAME=VALUE, as in volume=0.5 language=en")->required();
   CLI::App* picture =
       displays->add_subcommand("picture", "let a kiosk's displays write what they show into their --out folder");
-  for (CLI::App* command : {set, picture})
+  CLI::App* restart = displays->add_subcommand(
+      "restart", "let a kiosk's displays end; the service of each starts it again (mechane-display@.service)");
+  for (CLI::App* command : {set, picture, restart})
     command->fallthrough();  // --kiosk may follow the verb
   return displays;
 }

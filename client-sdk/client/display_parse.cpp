@@ -139,6 +139,7 @@ bool parse(const proto::DisplayRequest& wire, DisplayRequest& out) {
   if (wire.protocol != proto::kProtocol || wire.id == 0) return false;
   out.id = wire.id;
   out.picture = wire.picture;
+  out.restart = wire.restart;
   return parse_settings(wire.settings, out.settings);
 }
 

@@ -44,17 +44,17 @@ class DisplayWatchImpl final : public DisplayWatch {
   }
 
   [[nodiscard]] Expected<std::uint64_t> request(const std::string& kiosk, const std::string& display,
-                                                const std::vector<DisplaySetting>& settings, bool picture) override {
+                                                const DisplayRequest& request) override {
     if (auto ok = proto::check_name(kiosk, "kiosk"); !ok) return tl::unexpected(ok.error());
     if (!display.empty()) {
       if (auto ok = proto::check_name(display, "display"); !ok) return tl::unexpected(ok.error());
     }
     DisplaySettings tried;
-    if (auto ok = apply(settings, tried); !ok) return tl::unexpected(ok.error());
-    std::vector<proto::WireSetting> wire_settings(settings.size());
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-      proto::set_text(wire_settings[i].name, settings[i].name);
-      proto::set_text(wire_settings[i].value, settings[i].value);
+    if (auto ok = apply(request.settings, tried); !ok) return tl::unexpected(ok.error());
+    std::vector<proto::WireSetting> wire_settings(request.settings.size());
+    for (std::size_t i = 0; i < request.settings.size(); ++i) {
+      proto::set_text(wire_settings[i].name, request.settings[i].name);
+      proto::set_text(wire_settings[i].value, request.settings[i].value);
     }
     proto::DisplayRequest wire{};
     proto::set_text(wire.kiosk, kiosk);
@@ -64,7 +64,8 @@ class DisplayWatchImpl final : public DisplayWatch {
     wire.sent_ns = to_ns(std::chrono::steady_clock::now());
     wire.session = session_;
     wire.id = proto::random_id();
-    wire.picture = picture;
+    wire.picture = request.picture;
+    wire.restart = request.restart;
     proto::look_into(wire.settings, wire_settings);
     return requests_.write(wire) ? wire.id : 0;
   }

@@ -56,7 +56,7 @@ TimePoint DisplayLoop::now() {
 }
 
 bool DisplayLoop::stop_wanted(TimePoint now) const {
-  if (signals_.stop || (window_ != nullptr && window_->close_wanted())) return true;
+  if (signals_.stop || desk_.restart_wanted() || (window_ != nullptr && window_->close_wanted())) return true;
   if (options_.seconds > 0 && now - started_ >= std::chrono::duration<double>(options_.seconds)) return true;
   if (options_.frames > 0 && presenter_.frames() >= options_.frames) return true;
   if (news_.over()) return true;

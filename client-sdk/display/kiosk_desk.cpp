@@ -78,6 +78,10 @@ void KioskDesk::answer(const client::DisplayRequest& request) {
   settings_ = requested;
   for (const client::DisplaySetting& setting : request.settings)
     log::info(fmt::format("set from another machine: {}={}", setting.name, setting.value));
+  if (request.restart) {
+    log::info("another machine asked to start this display again");
+    restart_ = Restart::asked;
+  }
   if (request.picture) {
     picture_for_.push_back(request.id);
   } else {
@@ -146,7 +150,8 @@ void KioskDesk::report(const DisplayFacts& facts, TimePoint now) {
   status.last_warning = trouble.last;
   status.settings = client::settings_of(settings_);
   status.answers.assign(answers_.begin(), answers_.end());
-  (void)client_.report(status);  // after a failure, the next one follows in a second
+  // After a failure, the next one follows in a second.
+  if (client_.report(status) && restart_ == Restart::asked) restart_ = Restart::answered;
 }
 
 }  // namespace mechane::display

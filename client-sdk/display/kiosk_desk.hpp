@@ -100,6 +100,8 @@ class KioskDesk {
   /// Takes the ids of these requests. One picture is taken for all of them; their answer is its file, or why there is
   /// none.
   [[nodiscard]] std::vector<std::uint64_t> take_picture_requests() { return std::exchange(picture_for_, {}); }
+  /// Whether a technician has asked that the display be started again, and the answer was sent.
+  [[nodiscard]] bool restart_wanted() const { return restart_ == Restart::answered; }
   void picture_taken(const std::vector<std::uint64_t>& requests, const std::string& file);
   void picture_failed(const std::vector<std::uint64_t>& requests, const Error& error);
 
@@ -108,6 +110,7 @@ class KioskDesk {
   void report(const DisplayFacts& facts, TimePoint now);
 
  private:
+  enum class Restart : std::uint8_t { none, asked, answered };
   void answer(const client::DisplayRequest& request);
   void say(client::RequestAnswer answer);
 
@@ -121,6 +124,7 @@ class KioskDesk {
   std::string host_;
   std::vector<std::uint64_t> picture_for_;  ///< ids of requests that still wait for a picture
   std::deque<client::RequestAnswer> answers_;
+  Restart restart_ = Restart::none;
 };
 
 }  // namespace mechane::display

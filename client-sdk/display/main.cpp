@@ -197,6 +197,8 @@ int main(int argc, char** argv) {
   add_kiosk_options(app, options);
   add_recording_options(app, options);
   app.final_callback([&] { check_together(options); });
+  app.set_config("--settings", "", "file with options of this program, one a line: quality = \"cached\"");
+  app.allow_config_extras(CLI::config_extras_mode::error);
   if (const std::optional<int> status = parse_command_line(app, argc, argv)) return *status;
   log::start("mechane-display", log::Level::info);
   const Expected<picture::PixelSize> parsed = display::parse_size(size);

@@ -218,7 +218,9 @@ void fuzz_request(Bytes bytes) {
   proto::DisplayRequest wire{};
   wire.protocol = proto::kProtocol;
   wire.id = bytes.take<std::uint16_t>();
-  wire.picture = bytes.take<std::uint8_t>() % 2 == 1;
+  const auto flags = bytes.take<std::uint8_t>();
+  wire.picture = (flags & 1U) != 0;
+  wire.restart = (flags & 2U) != 0;
   std::vector<proto::WireSetting> settings = take_settings(bytes);
   proto::look_into(wire.settings, settings);
   client::DisplayRequest request;

@@ -111,6 +111,8 @@ class Kiosk(EndToEnd):
         self.assertNotIn("error", displays[0].text() + displays[1].text())
         displays[1].kill()
         self.wait_for_displays(lambda told: set(told) == {"wall"}, 20, "one that was killed is not listed any more")
+        self.assertEqual(command("restart", "--kiosk", "kiosk-1"), "kiosk-1/wall: done\n")
+        self.assertEqual(displays[0].wait(20), 0, "it ends without an error, for its service to start it again")
 
     def test_what_is_set_from_afar_is_seen(self):
         server = self.server(records=False)

@@ -90,11 +90,11 @@ TEST_F(Displays, ARequestReachesTheDisplaysThatItNamesAndIsAnsweredInTheirStatus
   const std::vector<Desk*> both{&wall, &bystanders};
   ASSERT_TRUE(told(both, "wall", [](const DisplayStatus& s) { return s.width == 640; }));
   ASSERT_TRUE(told(both, "bystanders", [](const DisplayStatus&) { return true; }));
-  const auto one = watch_->request("kiosk-1", "wall", {{"volume", "0.5"}}, false);
+  const auto one = watch_->request("kiosk-1", "wall", {.settings = {{"volume", "0.5"}}});
   ASSERT_TRUE(one.has_value());
-  const auto all = watch_->request("kiosk-1", "", {{"language", "en"}}, false);
+  const auto all = watch_->request("kiosk-1", "", {.settings = {{"language", "en"}}});
   ASSERT_TRUE(all.has_value());
-  const auto elsewhere = watch_->request("kiosk-2", "", {{"mute", "on"}}, false);
+  const auto elsewhere = watch_->request("kiosk-2", "", {.settings = {{"mute", "on"}}});
   ASSERT_TRUE(elsewhere.has_value());
   const auto at_wall = told(both, "wall", [&](const DisplayStatus& s) { return answers(s, *one) && answers(s, *all); });
   const auto beside = told(both, "bystanders", [&](const DisplayStatus& s) { return answers(s, *all); });
@@ -111,7 +111,7 @@ TEST_F(Displays, ARequestReachesTheDisplaysThatItNamesAndIsAnsweredInTheirStatus
 TEST_F(Displays, WhatALyingClientRequestsIsRefusedAndChangesNothing) {
   Desk wall("wall");
   ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
-  EXPECT_FALSE(watch_->request("kiosk-1", "", {{"volume", "2"}}, false).has_value()) << "the honest one asks first";
+  EXPECT_FALSE(watch_->request("kiosk-1", "", {.settings = {{"volume", "2"}}}).has_value()) << "the honest one asks first";
   auto participant = proto::Participant::create(kServerDomain);
   ASSERT_TRUE(participant.has_value());
   auto liar = proto::Writer<proto::DisplayRequest>::create(*participant, "");
@@ -142,7 +142,7 @@ TEST_F(Displays, WhatALyingClientRequestsIsRefusedAndChangesNothing) {
 TEST_F(Displays, APictureIsAnsweredWhenItIsWrittenAndKeysOfVisitorsAreTold) {
   Desk wall("wall", true);
   ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
-  const auto requested = watch_->request("kiosk-1", "wall", {}, true);
+  const auto requested = watch_->request("kiosk-1", "wall", {.picture = true});
   ASSERT_TRUE(requested.has_value());
   ASSERT_TRUE(eventually([&] { return wall.desk->picture_wanted(); }, 10s, [&] { wall.turn(); }));
   wall.style.high_contrast = true;
@@ -157,6 +157,19 @@ TEST_F(Displays, APictureIsAnsweredWhenItIsWrittenAndKeysOfVisitorsAreTold) {
   EXPECT_TRUE(told({&wall}, "wall", [](const DisplayStatus& s) {
     return std::ranges::count(s.settings, client::DisplaySetting{"high-contrast", "on"}) == 1;
   }));
+}
+
+TEST_F(Displays, ARestartIsAnsweredBeforeTheDisplayEnds) {
+  Desk wall("wall"), bystanders("bystanders");
+  const std::vector<Desk*> both{&wall, &bystanders};
+  ASSERT_TRUE(told(both, "wall", [](const DisplayStatus&) { return true; }));
+  const auto requested = watch_->request("kiosk-1", "wall", {.restart = true});
+  ASSERT_TRUE(requested.has_value());
+  const auto status = told(both, "wall", [&](const DisplayStatus& s) { return answers(s, *requested); });
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->answers[0].refusal, "");
+  EXPECT_TRUE(wall.desk->restart_wanted());
+  EXPECT_FALSE(bystanders.desk->restart_wanted());
 }
 
 TEST_F(Displays, ATrackersHeadComesToTheScreensThatItIsBefore) {

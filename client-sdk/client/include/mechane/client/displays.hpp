@@ -52,9 +52,10 @@ struct DisplaySettingInfo {
 
 /// A technician's request to a display.
 struct DisplayRequest {
-  std::uint64_t id = 0;
-  std::vector<DisplaySetting> settings;  ///< as received, not checked
-  bool picture = false;
+  std::uint64_t id = 0;                    ///< filled in by DisplayWatch::request()
+  std::vector<DisplaySetting> settings{};  ///< as received, not checked
+  bool picture = false;                    ///< write one into the display's folder
+  bool restart = false;                    ///< end, so that its service starts it again
 };
 
 /// The answer to a request.
@@ -123,7 +124,7 @@ class DisplayWatch {
   /// their status; 0 where the request could not be sent. Errors: a bad name, a setting that does not exist or is out
   /// of its range.
   [[nodiscard]] virtual Expected<std::uint64_t> request(const std::string& kiosk, const std::string& display,
-                                                        const std::vector<DisplaySetting>& settings, bool picture) = 0;
+                                                        const DisplayRequest& request) = 0;
 };
 
 }  // namespace mechane::client
