@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "server/collision/samples.hpp"
+#include "server/geometry/apart_filter.hpp"
 
 namespace mechane::dynamics {
 namespace {
@@ -23,11 +24,11 @@ std::vector<Vec3> spread(std::vector<Vec3> samples, const Vec3& center, double s
     return (l - center).squaredNorm() > (r - center).squaredNorm();
   });
   std::vector<Vec3> kept;
+  geometry::ApartFilter apart(spacing_m);
   for (const Vec3& p : samples) {
-    const bool is_new = std::all_of(kept.begin(), kept.end(), [&](const Vec3& other) {
-      return (p - other).squaredNorm() >= spacing_m * spacing_m;
-    });
-    if (is_new) kept.push_back(p);
+    if (!apart.is_apart(p)) continue;
+    apart.put(p);
+    kept.push_back(p);
   }
   return kept;
 }

@@ -1,11 +1,10 @@
 #include "server/geometry/surface_samples.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <unordered_map>
 
 #include "server/base/random.hpp"
+#include "server/geometry/apart_filter.hpp"
 #include "server/geometry/area_normal.hpp"
 
 namespace mechane::geometry {
@@ -15,43 +14,6 @@ constexpr double kClosest = 0.7;  // of the spacing
 constexpr double kRefusedReach = 0.25;
 constexpr double kCandidatesPerCell = 20;
 constexpr std::size_t kMaxCandidates = 4'000'000;
-
-/// Keeps points apart: a hash of cells as wide as the least distance.
-class ApartFilter {
- public:
-  explicit ApartFilter(double least_m) : least_(least_m) {}
-
-  /// Whether a point would lie at least the least distance from all points put in so far.
-  [[nodiscard]] bool is_apart(const Vec3& p) const {
-    // Its own cell first, the corners last: nearly all points have one nearby, and are refused at once.
-    static constexpr std::array<int, 27> kNearestFirst{13, 4,  10, 12, 14, 16, 22, 1, 3, 5,  7,  9,  11, 15,
-                                                       17, 19, 21, 23, 25, 0,  2,  6, 8, 18, 20, 24, 26};
-    const Cell c = cell(p);
-    for (const int n : kNearestFirst) {
-      const auto found = cells_.find(key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1}));
-      if (found == cells_.end()) continue;
-      for (const Vec3& q : found->second) {
-        if ((q - p).squaredNorm() < least_ * least_) return false;
-      }
-    }
-    return true;
-  }
-  void put(const Vec3& p) { cells_[key(cell(p))].push_back(p); }
-
- private:
-  using Cell = std::array<std::int64_t, 3>;
-  [[nodiscard]] Cell cell(const Vec3& p) const {
-    return {std::llround(p.x() / least_), std::llround(p.y() / least_), std::llround(p.z() / least_)};
-  }
-  // Two cells may share a key. That only costs a few more comparisons.
-  [[nodiscard]] static std::uint64_t key(const Cell& c) {
-    return static_cast<std::uint64_t>(c[0]) * 73856093U ^ static_cast<std::uint64_t>(c[1]) * 19349663U ^
-           static_cast<std::uint64_t>(c[2]) * 83492791U;
-  }
-
-  double least_;
-  std::unordered_map<std::uint64_t, std::vector<Vec3>> cells_;
-};
 
 }  // namespace
 
