@@ -10,7 +10,8 @@ from harness import EndToEnd, marked, wait_until
 @marked("draws", "not-address")
 class Film(EndToEnd):
     def display(self, *arguments, size="320x180"):
-        return self.start("display", "display", "--kiosk", "wall", "--language", "en", "--offscreen", "--size", size, *arguments)
+        return self.start("display", "display", "--kiosk", "wall", "--language", "en", "--offscreen", "--size", size, "--quality", "high",
+                          *arguments)
 
     def test_a_server_that_is_stopped_in_mid_turn_stops_the_picture(self):
         server = self.server(records=False)

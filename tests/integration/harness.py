@@ -101,6 +101,10 @@ class EndToEnd(unittest.TestCase):
         self._folder.cleanup()
 
     def start(self, name, *arguments, environment=None, prefix=()):
+        """Runs `mechane` with these arguments. A display without a window draws what costs least, unless they name a quality: in `high`,
+        its default, two displays leave a processor no time for anything else. A test that compares pictures bit by bit must ask for it."""
+        if "--offscreen" in arguments and "--quality" not in arguments:
+            arguments = (*arguments, "--quality", "cached")
         self._count += 1
         process = Process(f"{name}-{self._count}", [*prefix, str(BIN / "mechane"), *map(str, arguments)], self.folder,
                           environment or self.environment)

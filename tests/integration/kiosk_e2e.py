@@ -116,7 +116,7 @@ class Kiosk(EndToEnd):
 
     def test_what_is_set_from_afar_is_seen(self):
         server = self.server(records=False)
-        self.display("--out", self.folder / "out")
+        self.display("--out", self.folder / "out", "--quality", "high")
         self.wait_for_displays(lambda told: told and told["wall"]["link"] == "joined" and told["wall"]["missing_total"] == 0, 30, "it has joined")
         # In a world that stands still, only a setting changes a picture.
         server.process.send_signal(signal.SIGSTOP)
