@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -9,8 +10,8 @@ namespace mechane::draw {
 namespace {
 
 /// Halves the triangles along the longest side of their centroids' box, until pieces are small enough.
-void halve(const picture::MeshData& mesh, const std::vector<Vec3f>& middles, std::span<std::uint32_t> triangles,
-           std::uint32_t most, PiecedIndices& out) {
+void halve(const picture::MeshData& mesh, std::span<const std::uint32_t> indices, const std::vector<Vec3f>& middles,
+           std::span<std::uint32_t> triangles, std::uint32_t most, PiecedIndices& out) {
   if (triangles.size() <= most) {
     // Within a piece, the file's order is kept.
     std::ranges::sort(triangles);
@@ -18,7 +19,7 @@ void halve(const picture::MeshData& mesh, const std::vector<Vec3f>& middles, std
         static_cast<std::uint32_t>(out.indices.size()), static_cast<std::uint32_t>(3 * triangles.size()), {}};
     for (const std::uint32_t triangle : triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t vertex = mesh.indices[std::size_t{3} * triangle + k];
+        const std::uint32_t vertex = indices[std::size_t{3} * triangle + k];
         out.indices.push_back(vertex);
         piece.box_M.extend(mesh.positions[vertex]);
       }
@@ -34,8 +35,8 @@ void halve(const picture::MeshData& mesh, const std::vector<Vec3f>& middles, std
   const std::size_t half = triangles.size() / 2;
   std::ranges::nth_element(triangles, triangles.begin() + static_cast<std::ptrdiff_t>(half), {},
                            [&](std::uint32_t triangle) { return middles[triangle](axis); });
-  halve(mesh, middles, triangles.first(half), most, out);
-  halve(mesh, middles, triangles.subspan(half), most, out);
+  halve(mesh, indices, middles, triangles.first(half), most, out);
+  halve(mesh, indices, middles, triangles.subspan(half), most, out);
 }
 
 }  // namespace
@@ -62,21 +63,28 @@ float distance_m(const Eigen::Affine3f& X_WM, const Eigen::AlignedBox3f& box_M, 
   return box_W.exteriorDistance(p_WE);
 }
 
-PiecedIndices cut_up(const picture::MeshData& mesh, std::uint32_t most) {
+float pixel_m(const picture::EyeView& view, picture::PixelSize size, float distance_m) {
+  return 2 * distance_m / (std::abs(view.P(1, 1)) * static_cast<float>(size.height));
+}
+
+float scale_of(const Eigen::Affine3f& X_WM) {
+  return X_WM.linear().colwise().norm().maxCoeff();
+}
+
+PiecedIndices cut_up(const picture::MeshData& mesh, std::span<const std::uint32_t> indices, std::uint32_t most) {
   PiecedIndices out;
-  const std::size_t count = mesh.indices.size() / 3;
+  const std::size_t count = indices.size() / 3;
   if (count == 0) return out;
   std::vector<Vec3f> middles;
   middles.reserve(count);
   for (std::size_t i = 0; i < 3 * count; i += 3) {
     middles.emplace_back(
-        (mesh.positions[mesh.indices[i]] + mesh.positions[mesh.indices[i + 1]] + mesh.positions[mesh.indices[i + 2]]) /
-        3.0F);
+        (mesh.positions[indices[i]] + mesh.positions[indices[i + 1]] + mesh.positions[indices[i + 2]]) / 3.0F);
   }
   std::vector<std::uint32_t> triangles(count);
   std::iota(triangles.begin(), triangles.end(), 0U);
   out.indices.reserve(3 * count);
-  halve(mesh, middles, triangles, std::max(most, 1U), out);
+  halve(mesh, indices, middles, triangles, std::max(most, 1U), out);
   return out;
 }
 

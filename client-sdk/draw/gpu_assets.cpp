@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -51,6 +52,15 @@ std::vector<Vec3f> middles_of(const picture::MeshData& mesh, const std::vector<s
                      3.0F);
   }
   return out;
+}
+
+void append(PiecedIndices more, PiecedIndices& to) {
+  const auto first = static_cast<std::uint32_t>(to.indices.size());
+  for (MeshPiece& piece : more.pieces) {
+    piece.first_index += first;
+    to.pieces.push_back(piece);
+  }
+  to.indices.insert(to.indices.end(), more.indices.begin(), more.indices.end());
 }
 
 const void* place_of(const MeshPiece& range) {
@@ -179,10 +189,22 @@ GpuAssets::GpuMesh GpuAssets::mesh_or_placeholder(const picture::MeshData& mesh)
 
 GpuAssets::GpuMesh GpuAssets::upload_mesh(const picture::MeshData& mesh) {
   const std::vector<float> vertices = interleave(mesh);
-  PiecedIndices cut = cut_up(mesh, kPiece);
-  GpuMesh gpu{make_vertex_array(),   make_buffer(),
-              make_buffer(),         static_cast<std::int32_t>(cut.indices.size()),
-              std::move(cut.pieces), middles_of(mesh, cut.indices)};
+  PiecedIndices cut = cut_up(mesh, mesh.indices, kPiece);
+  GpuMesh gpu{make_vertex_array(),
+              make_buffer(),
+              make_buffer(),
+              static_cast<std::int32_t>(cut.indices.size()),
+              {},
+              {{0, 0, static_cast<std::uint32_t>(cut.pieces.size())}},
+              {},
+              middles_of(mesh, cut.indices)};
+  for (const MeshPiece& piece : cut.pieces)
+    gpu.box_M.extend(piece.box_M);
+  for (const picture::CoarserMesh& coarser : mesh.coarser) {
+    append(cut_up(mesh, coarser.indices, kPiece), cut);
+    gpu.levels.push_back({coarser.error_m, gpu.levels.back().end, static_cast<std::uint32_t>(cut.pieces.size())});
+  }
+  gpu.pieces = std::move(cut.pieces);
   glBindVertexArray(gpu.vertex_array.get());
   glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.get());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
@@ -216,6 +238,17 @@ void GpuAssets::draw(std::uint32_t mesh) const {
 const std::vector<MeshPiece>& GpuAssets::pieces(std::uint32_t mesh) const {
   MECHANE_ASSERT(mesh < meshes_.size());
   return meshes_[mesh].pieces;
+}
+
+GpuAssets::Level GpuAssets::level(std::uint32_t mesh, float error_m) const {
+  MECHANE_ASSERT(mesh < meshes_.size());
+  const std::vector<Level>& levels = meshes_[mesh].levels;
+  return *std::prev(std::ranges::upper_bound(levels, error_m, {}, &Level::error_m));
+}
+
+const Eigen::AlignedBox3f& GpuAssets::box(std::uint32_t mesh) const {
+  MECHANE_ASSERT(mesh < meshes_.size());
+  return meshes_[mesh].box_M;
 }
 
 void GpuAssets::draw(const InstanceRun& run, const Program& program) const {

@@ -51,8 +51,18 @@ class GpuAssets {
   [[nodiscard]] const std::set<std::string>& refused() const { return refused_; }
   /// Draws the triangles; the program, with its uniforms, must be in use.
   void draw(std::uint32_t mesh) const;
-  /// The mesh's pieces, for culling.
+  /// A level of detail: a mesh's pieces from `first` up to, but without, `end`.
+  struct Level {
+    float error_m = 0;
+    std::uint32_t first = 0;
+    std::uint32_t end = 0;
+  };
+  /// The coarsest level of which no point is farther from the mesh, in its own frame; with 0, the mesh itself.
+  [[nodiscard]] Level level(std::uint32_t mesh, float error_m = 0) const;
+  /// The pieces of all levels, for culling.
   [[nodiscard]] const std::vector<MeshPiece>& pieces(std::uint32_t mesh) const;
+  /// The mesh in its own frame.
+  [[nodiscard]] const Eigen::AlignedBox3f& box(std::uint32_t mesh) const;
   /// Draws a run's instances, and sets the uniforms of set_model(). The program must be in use.
   void draw(const InstanceRun& run, const Program& program) const;
   /// Draws some of the triangles, in the given order.
@@ -72,6 +82,8 @@ class GpuAssets {
     BufferName indices;
     std::int32_t index_count = 0;
     std::vector<MeshPiece> pieces;
+    std::vector<Level> levels;  ///< the mesh itself, then coarser ones
+    Eigen::AlignedBox3f box_M;
     std::vector<Vec3f> middles_M;  ///< of the triangles
   };
   [[nodiscard]] static GpuMesh upload_mesh(const picture::MeshData& mesh);

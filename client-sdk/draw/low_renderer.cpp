@@ -1,6 +1,7 @@
 #include "client-sdk/draw/low_renderer.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -14,6 +15,11 @@ namespace {
 
 constexpr std::uint32_t kStillMap = 2048;
 constexpr std::uint32_t kMoverMap = 1024;
+/// So many times its size away, a fire's light is a hundredth of the sky's.
+constexpr float kFireReach_sizes = 40;
+/// How far surfaces may be off in the picture, and in the shadow maps, so that fewer triangles are drawn.
+constexpr float kCoarseness_px = 0.5F;
+constexpr float kCoarseness_texels = 0.5F;
 
 template <class Target, class... Use>
 Expected<void> fit(std::optional<Target>& target, picture::PixelSize size, Use... use) {
@@ -31,7 +37,8 @@ picture::PixelSize half_of(picture::PixelSize size) {
 
 Eigen::AlignedBox3f box_of(std::uint32_t mesh, const Eigen::Affine3f& X_WM, const GpuAssets& assets) {
   Eigen::AlignedBox3f box_W;
-  for (const MeshPiece& piece : assets.pieces(mesh)) {
+  const GpuAssets::Level whole = assets.level(mesh);
+  for (const MeshPiece& piece : std::span(assets.pieces(mesh)).first(whole.end)) {
     for (int corner = 0; corner < 8; ++corner)
       box_W.extend(X_WM * piece.box_M.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
   }
@@ -67,6 +74,13 @@ void append_particle_boxes(const picture::RenderScene& scene, std::vector<Eigen:
     append_splash(scene.streams[i], i, scene.time_s, particles);
     close_box();
   }
+}
+
+/// What a fire visibly lights.
+Eigen::AlignedBox3f lit_box(const FireKey& fire) {
+  const Vec3f middle(fire.p_W[0], fire.p_W[1], fire.p_W[2]);
+  const Vec3f reach = Vec3f::Constant(kFireReach_sizes * fire.size_m);
+  return {middle - reach, middle + reach};
 }
 
 std::vector<Vec3f> corners_of(const Eigen::AlignedBox3f& box_W) {
@@ -112,8 +126,6 @@ std::vector<float> numbers_of(const picture::RenderScene& scene, const picture::
     add(box_W.min());
     add(box_W.max());
   }
-  for (const Eigen::Vector4f& fire : fire_lights(scene, FireLight::steady))
-    add(fire);
   return out;
 }
 
@@ -124,6 +136,12 @@ ScreenRegion grown(const ScreenRegion& region, picture::PixelSize size) {
   const ScreenRegion whole = whole_region(size);
   return {std::max(region.left - kSmoothed, 0), std::max(region.bottom - kSmoothed, 0),
           std::min(region.right + kSmoothed, whole.right), std::min(region.top + kSmoothed, whole.top)};
+}
+
+/// A column: each has some of the sky and some of the ground.
+ScreenRegion slice_of(picture::PixelSize size, std::uint32_t number) {
+  const auto edge = [&](std::uint32_t k) { return static_cast<int>(size.width * k / LowRenderer::kSlices); };
+  return {edge(number), 0, edge(number + 1), static_cast<int>(size.height)};
 }
 
 /// While it lives, only pixels of the region are drawn, in an area whose lower left corner is (x, y).
@@ -161,9 +179,9 @@ picture::RenderScene empty_of(const picture::RenderScene& scene) {
 }  // namespace
 
 Expected<LowRenderer> LowRenderer::create() {
-  Expected<ShadowPass> still_shadow = ShadowPass::create(kStillMap);
+  Expected<ShadowPass> still_shadow = ShadowPass::create(kStillMap, kCoarseness_texels);
   if (!still_shadow) return tl::unexpected(still_shadow.error());
-  Expected<ShadowPass> mover_shadow = ShadowPass::create(kMoverMap);
+  Expected<ShadowPass> mover_shadow = ShadowPass::create(kMoverMap, kCoarseness_texels);
   if (!mover_shadow) return tl::unexpected(mover_shadow.error());
   Expected<OpaquePass> opaque = OpaquePass::create(Shading::screen);
   if (!opaque) return tl::unexpected(opaque.error());
@@ -186,21 +204,34 @@ Expected<LowRenderer> LowRenderer::create() {
 
 void LowRenderer::forget() {
   stillness_.forget();
+  evenness_.forget();
+  fires_.clear();
   pictures_ = 0;
   kept_.clear();
   passes_.still_shadow.forget();
   passes_.mover_shadow.forget();
-  for (View& view : views_)
-    view.whole = false;
+  for (View& view : views_) {
+    view.slices = 0;
+    view.drawn_in = 0;
+  }
 }
 
 void LowRenderer::begin(const LowScene& low) {
-  stillness_.see(low.scene.instances);
+  stillness_.see(std::span(low.scene.instances));
+  evenness_.see(std::span(low.scene.effects));
+  ++picture_;
   pictures_ = std::min(pictures_ + 1, kStill);
   let_go(low.assets);
   keep_what_rests(low);
   part(low);
   draw_shadows(low);
+}
+
+/// What is kept there must be drawn anew.
+void LowRenderer::spoil(const Eigen::AlignedBox3f& box_W) {
+  for (View& view : views_) {
+    if (view.begun()) view.spoilt.push_back(box_W);
+  }
 }
 
 /// What has moved, or is gone, leaves the kept pictures.
@@ -210,37 +241,46 @@ void LowRenderer::let_go(const GpuAssets& assets) {
       ++one;
       continue;
     }
-    const Eigen::AlignedBox3f box_W = box_of(one->mesh, one->pose(), assets);
-    for (View& view : views_) {
-      if (view.whole) view.spoilt.push_back(box_W);
-    }
+    spoil(box_of(one->mesh, one->pose(), assets));
     one = kept_.erase(one);
   }
+  std::erase_if(fires_, [this](const FireKey& fire) {
+    const bool gone = evenness_.pictures(fire) == 0;
+    if (gone) spoil(lit_box(fire));
+    return gone;
+  });
 }
 
 /// What stands still joins the kept pictures: at once where there are none, else only after a while, for they must be
-/// drawn anew.
+/// drawn anew where it stands.
 void LowRenderer::keep_what_rests(const LowScene& low) {
-  const bool none = std::ranges::none_of(views_, &View::whole);
-  std::set<InstanceKey> still;
-  bool settled = none;
+  const std::uint32_t enough = std::ranges::none_of(views_, &View::begun) ? kStill : kSettled;
   for (const picture::Instance& instance : low.scene.instances) {
-    if (low.assets.is_clear(instance.material)) continue;
+    // Glass must be drawn over what moves behind it; but nothing moves behind the shade of far trees.
+    if (low.assets.is_clear(instance.material) && instance.near) continue;
     const InstanceKey key(instance);
-    const std::uint32_t pictures = stillness_.pictures(key);
-    if (pictures < kStill) continue;
-    settled = settled || (pictures >= kSettled && !kept_.contains(key));
-    still.insert(key);
+    if (stillness_.pictures(key) >= enough && kept_.insert(key).second)
+      spoil(box_of(key.mesh, instance.X_WM, low.assets));
   }
-  if (!settled || still == kept_) return;
-  kept_ = std::move(still);
-  for (View& view : views_)
-    view.whole = false;
+  keep_even_fires(low.scene, enough);
+}
+
+/// Fires that move, or grow, light only what moves: for their sake all would be drawn anew in each picture.
+void LowRenderer::keep_even_fires(const picture::RenderScene& scene, std::uint32_t enough) {
+  for (const picture::ParticleEffect& effect : scene.effects) {
+    const FireKey key(effect);
+    if (effect.kind == picture::ParticleEffect::Kind::fire && evenness_.pictures(key) >= enough &&
+        fires_.insert(key).second)
+      spoil(lit_box(key));
+  }
 }
 
 void LowRenderer::part(const LowScene& low) {
   const picture::RenderScene& scene = low.scene;
   still_ = empty_of(scene);
+  std::erase_if(still_.effects, [this](const picture::ParticleEffect& effect) {
+    return !fires_.contains(FireKey(effect));  // no other effect gives light
+  });
   still_.ground_height_m = scene.ground_height_m;
   still_.land_material = scene.land_material;
   moving_ = empty_of(scene);
@@ -285,18 +325,25 @@ PassInput LowRenderer::input_of(const LowScene& low, const picture::RenderScene&
                   view,        low.sky,          passes_.still_shadow.maps(),    still_setup_,
                   target.size, target.depth_copy};
   input.low = LowLight{low.exposure, nullptr, nullptr, movers};
+  input.coarseness_px = kCoarseness_px;
   return input;
 }
 
 Expected<void> LowRenderer::draw_view(const LowScene& low, std::size_t index, const picture::EyeView& view,
                                       picture::PixelSize size, bool keeps) {
   View& of = views_[index];
+  of.drawn_in = picture_;
   std::vector<float> seen = numbers_of(low.scene, view, size);
   const bool same = seen == of.seen && pictures_ == kStill;
-  if (!same) of.whole = false;
+  if (!keeps || !same) of.slices = 0;
+  if (!of.begun()) of.spoilt.clear();
   of.seen = std::move(seen);
-  if (!keeps || !same) {
-    of.whole = false;
+  if (keeps && same) {
+    if (auto ok = fit(of.kept, size, ScreenTarget::Use::kept); !ok) return ok;
+    if (auto ok = fit(of.smooth, size); !ok) return ok;
+    mend(low, of, view);
+  }
+  if (!of.whole()) {
     std::optional<ScreenTarget>& target = keeps ? of.half : of.drawn;
     if (auto ok = fit(target, keeps ? half_of(size) : size, ScreenTarget::Use::drawn); !ok) return ok;
     target->bind();
@@ -304,41 +351,52 @@ Expected<void> LowRenderer::draw_view(const LowScene& low, std::size_t index, co
     of.shown = &*target;
   } else {
     if (auto ok = fit(of.drawn, size, ScreenTarget::Use::drawn); !ok) return ok;
-    if (auto ok = fit(of.kept, size, ScreenTarget::Use::kept); !ok) return ok;
-    if (auto ok = fit(of.smooth, size); !ok) return ok;
-    mend(low, of, view);
     of.drawn->copy_from(*of.kept);
     of.drawn->bind();
     relight(low, of, view);
     of.shown = &*of.drawn;
     of.changed = changed_regions(low.scene, view, size);
   }
-  of.spoilt.clear();
   draw_moving(low, view, *of.shown);
   return {};
 }
 
-/// Makes the kept picture as the scene has it now.
+Expected<void> LowRenderer::draw_at_half_rate(const LowScene& low, std::size_t index, const picture::EyeView& view,
+                                              picture::PixelSize size, bool keeps) {
+  const View& of = views_[index];
+  const bool will_do =
+      of.drawn_in + 1 == picture_ && (of.whole() || !keeps) && numbers_of(low.scene, view, size) == of.seen;
+  return will_do ? Expected<void>() : draw_view(low, index, view, size, keeps);
+}
+
+/// Makes another slice of the kept picture; once it has all, makes it as the scene has it now.
 void LowRenderer::mend(const LowScene& low, View& of, const picture::EyeView& view) {
   const picture::PixelSize size = of.kept->size;
+  if (!of.whole()) {
+    draw_kept(low, of, view, slice_of(size, of.slices));
+    ++of.slices;
+    times_kept_ += of.whole() ? 1 : 0;
+  }
+  if (!of.whole()) return;
   std::vector<ScreenRegion> regions;
-  if (!std::exchange(of.whole, true)) {
-    regions = {whole_region(size)};
-    ++times_kept_;
-  } else {
-    const float reach_m = edge_m(still_setup_, passes_.still_shadow.maps(), kEdgeOfStill);
-    for (const Eigen::AlignedBox3f& box_W : of.spoilt)
-      regions.push_back(region_with_shadow(box_W, reach_m, low.scene, view, size));
-    regions = merged(std::move(regions));
-    times_mended_ += regions.size();
-  }
-  for (const ScreenRegion& region : regions) {
-    of.kept->bind();
-    draw_still(low, view, *of.kept, region, false);
-    PictureArea{of.smooth->framebuffer, 0, 0, size}.bind();
-    const Scissor scissor(grown(region, size), 0, 0);
-    smooth(of.kept->colour);
-  }
+  const float reach_m = edge_m(still_setup_, passes_.still_shadow.maps(), kEdgeOfStill);
+  for (const Eigen::AlignedBox3f& box_W : std::exchange(of.spoilt, {}))
+    regions.push_back(region_with_shadow(box_W, reach_m, low.scene, view, size));
+  regions = merged(std::move(regions));
+  times_mended_ += regions.size();
+  for (const ScreenRegion& region : regions)
+    draw_kept(low, of, view, region);
+}
+
+/// Draws what stands still into the kept picture, and smooths its edges.
+void LowRenderer::draw_kept(const LowScene& low, const View& of, const picture::EyeView& view,
+                            const ScreenRegion& region) {
+  if (region.empty()) return;
+  of.kept->bind();
+  draw_still(low, view, *of.kept, region, false);
+  PictureArea{of.smooth->framebuffer, 0, 0, of.kept->size}.bind();
+  const Scissor scissor(grown(region, of.kept->size), 0, 0);
+  smooth(of.kept->colour);
 }
 
 void LowRenderer::draw_still(const LowScene& low, const picture::EyeView& view, const ScreenTarget& target,
@@ -355,6 +413,12 @@ void LowRenderer::draw_still(const LowScene& low, const picture::EyeView& view, 
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   passes_.opaque.draw(input);
   passes_.sky.draw(input);
+  // What is blended has no light of its own that a mover's shadow could take away.
+  for (const GLuint light : {1U, 2U})
+    glColorMaski(light, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  passes_.clear.draw(input);
+  for (const GLuint light : {1U, 2U})
+    glColorMaski(light, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void LowRenderer::draw_moving(const LowScene& low, const picture::EyeView& view, const ScreenTarget& target) {
@@ -377,7 +441,7 @@ std::vector<ScreenRegion> LowRenderer::shaded_regions(const picture::RenderScene
   const float reach_m = edge_m(mover_setup_, passes_.mover_shadow.maps(), kEdgeOfMovers);
   for (const Eigen::AlignedBox3f& box_W : casters_W_)
     out.push_back(region_with_shadow(box_W, reach_m, scene, view, size));
-  return merged(std::move(out));
+  return covered(out, size);
 }
 
 /// Where the picture may differ from the kept one, once its edges are smooth.
@@ -389,7 +453,7 @@ std::vector<ScreenRegion> LowRenderer::changed_regions(const picture::RenderScen
   for (ScreenRegion& region : out) {
     if (!region.empty()) region = grown(region, size);
   }
-  return merged(std::move(out));
+  return covered(out, size);
 }
 
 /// Puts the shadows of what moves on the copy of the kept picture.
@@ -427,7 +491,7 @@ void LowRenderer::smooth(const TextureName& picture) const {
 void LowRenderer::show(std::size_t index, const PictureArea& into) const {
   const View& of = views_[index];
   MECHANE_ASSERT(of.shown != nullptr);
-  if (!of.whole) {
+  if (!of.whole()) {
     into.bind();
     smooth(of.shown->colour);
     return;

@@ -183,7 +183,7 @@ Expected<void> Renderer::draw_low(const picture::RenderScene& scene, picture::St
   if (scene.inset) {
     const PixelRectangle place = inset_in(picture::eye_size(stereo, picture_->size), seen);
     const picture::EyeView view = inset_view(*scene.inset, seen);
-    if (auto ok = low_->draw_view(low, kInset, view, {place.width, place.height}, keeps); !ok) return ok;
+    if (auto ok = low_->draw_at_half_rate(low, kInset, view, {place.width, place.height}, keeps); !ok) return ok;
   }
   const std::vector<picture::Eye> eyes = picture::eyes_of(stereo);
   for (std::size_t i = 0; i < eyes.size(); ++i) {

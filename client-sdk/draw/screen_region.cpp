@@ -9,6 +9,8 @@ namespace {
 /// Shadows that are longer than three times their thing's height have no useful bound.
 constexpr float kLowestSun = 0.3F;
 constexpr float kNearestW = 1e-3F;
+/// The side of a cell, pixels.
+constexpr int kCell = 32;
 
 bool overlap(const ScreenRegion& a, const ScreenRegion& b) {
   return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
@@ -68,6 +70,43 @@ std::vector<ScreenRegion> merged(std::vector<ScreenRegion> regions) {
       out.erase(other);
     }
   }
+  return out;
+}
+
+std::vector<ScreenRegion> covered(std::span<const ScreenRegion> regions, picture::PixelSize size) {
+  const ScreenRegion whole = whole_region(size);
+  const auto columns = static_cast<std::size_t>((whole.right + kCell - 1) / kCell);
+  const auto rows = static_cast<std::size_t>((whole.top + kCell - 1) / kCell);
+  std::vector<std::vector<bool>> cells(rows, std::vector<bool>(columns));
+  for (const ScreenRegion& region : regions) {
+    if (region.empty()) continue;
+    for (int row = region.bottom / kCell; row * kCell < region.top; ++row)
+      for (int column = region.left / kCell; column * kCell < region.right; ++column)
+        cells[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = true;
+  }
+  std::vector<ScreenRegion> out;
+  std::vector<ScreenRegion> below;  // of the last row: equal runs of cells become one region
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::vector<ScreenRegion> runs;
+    const int bottom = static_cast<int>(row) * kCell;
+    for (std::size_t column = 0; column < columns; ++column) {
+      if (!cells[row][column]) continue;
+      const int left = static_cast<int>(column) * kCell;
+      const bool goes_on = !runs.empty() && runs.back().right == left;
+      if (!goes_on) runs.push_back({left, bottom, left, std::min(bottom + kCell, whole.top)});
+      runs.back().right = std::min(left + kCell, whole.right);
+    }
+    for (ScreenRegion& run : runs) {
+      const auto same = std::ranges::find_if(
+          below, [&run](const ScreenRegion& r) { return r.left == run.left && r.right == run.right; });
+      if (same == below.end()) continue;
+      run.bottom = same->bottom;
+      below.erase(same);
+    }
+    out.insert(out.end(), below.begin(), below.end());
+    below = std::move(runs);
+  }
+  out.insert(out.end(), below.begin(), below.end());
   return out;
 }
 

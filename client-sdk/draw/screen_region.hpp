@@ -37,6 +37,10 @@ struct ScreenRegion {
 /// As few regions, none of which overlap, that contain all of these.
 [[nodiscard]] std::vector<ScreenRegion> merged(std::vector<ScreenRegion> regions);
 
+/// Regions, none of which overlap, that contain all of these and little else: they consist of square cells. These must
+/// lie in the picture.
+[[nodiscard]] std::vector<ScreenRegion> covered(std::span<const ScreenRegion> regions, picture::PixelSize size);
+
 /// From the picture's clip space to that of the region alone.
 [[nodiscard]] Eigen::Matrix4f crop_to(const ScreenRegion& region, picture::PixelSize size);
 

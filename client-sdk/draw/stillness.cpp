@@ -1,7 +1,6 @@
 #include "client-sdk/draw/stillness.hpp"
 
 #include <bit>
-#include <utility>
 
 namespace mechane::draw {
 
@@ -18,18 +17,7 @@ Eigen::Affine3f InstanceKey::pose() const {
   return out;
 }
 
-void Stillness::see(std::span<const picture::Instance> instances) {
-  std::map<InstanceKey, std::uint32_t> now;
-  for (const picture::Instance& instance : instances) {
-    const InstanceKey key(instance);
-    now.try_emplace(key, pictures(key) + 1);
-  }
-  seen_ = std::move(now);
-}
-
-std::uint32_t Stillness::pictures(const InstanceKey& key) const {
-  const auto seen = seen_.find(key);
-  return seen == seen_.end() ? 0 : seen->second;
-}
+FireKey::FireKey(const picture::ParticleEffect& fire)
+    : p_W{fire.p_W.x(), fire.p_W.y(), fire.p_W.z()}, size_m(fire.size_m), intensity(fire.intensity) {}
 
 }  // namespace mechane::draw

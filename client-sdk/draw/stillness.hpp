@@ -1,11 +1,13 @@
-// Which things of a scene stand still: told by their poses alone, picture by picture.
+// Which things of a scene stand still, and which fires burn evenly: told by their numbers alone, picture by picture.
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "client-sdk/picture/scene_parts.hpp"
 
@@ -26,16 +28,39 @@ struct InstanceKey {
   }
 };
 
+/// All of a fire that its light on what stands still depends on.
+struct FireKey {
+  std::array<float, 3> p_W{};
+  float size_m = 0;
+  float intensity = 0;
+
+  explicit FireKey(const picture::ParticleEffect& fire);
+  friend auto operator<=>(const FireKey&, const FireKey&) = default;
+};
+
+/// Key: of a thing that can be made of it.
+template <class Key>
 class Stillness {
  public:
   /// Takes the things of the next picture.
-  void see(std::span<const picture::Instance> instances);
+  template <class Thing>
+  void see(std::span<const Thing> things) {
+    std::map<Key, std::uint32_t> now;
+    for (const Thing& thing : things) {
+      const Key key(thing);
+      now.try_emplace(key, pictures(key) + 1);
+    }
+    seen_ = std::move(now);
+  }
   /// In how many pictures in a row, up to the last, such a thing has been there; 0: it was not in the last one.
-  [[nodiscard]] std::uint32_t pictures(const InstanceKey& key) const;
+  [[nodiscard]] std::uint32_t pictures(const Key& key) const {
+    const auto seen = seen_.find(key);
+    return seen == seen_.end() ? 0 : seen->second;
+  }
   void forget() { seen_.clear(); }
 
  private:
-  std::map<InstanceKey, std::uint32_t> seen_;
+  std::map<Key, std::uint32_t> seen_;
 };
 
 }  // namespace mechane::draw

@@ -13,6 +13,12 @@
 
 namespace mechane::picture {
 
+/// A mesh in fewer triangles, of its own vertices.
+struct CoarserMesh {
+  float error_m = 0;  ///< its surface lies no farther from the mesh
+  std::vector<std::uint32_t> indices;
+};
+
 /// Triangles for one draw call. `normals` is as long as `positions`; `tangents` and `uv` may be empty.
 struct MeshData {
   std::vector<Vec3f> positions;
@@ -21,6 +27,7 @@ struct MeshData {
   std::vector<Eigen::Vector2f> uv;        ///< (0, 0) is the image's upper left corner
   std::vector<std::uint32_t> indices;     ///< three a triangle, counter-clockwise seen from outside
   std::string name{};                     ///< for messages: "machine.glb#WHEEL"; empty: made by the display itself
+  std::vector<CoarserMesh> coarser{};     ///< the finest first
 };
 
 /// Eight bits a channel, upper row first.

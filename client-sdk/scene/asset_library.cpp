@@ -13,8 +13,18 @@ namespace {
 
 constexpr std::string_view kWaterPrefix = "WATER_";
 
-/// Appends the mesh to `into`, transformed by X_BM.
-void merge(picture::MeshData& into, const content::ImportedMesh& mesh, const Eigen::Affine3d& X_BM) {
+void append_triangles(const std::vector<std::uint32_t>& indices, std::uint32_t first_vertex, bool mirrored,
+                      std::vector<std::uint32_t>& out) {
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    out.push_back(first_vertex + indices[i]);
+    out.push_back(first_vertex + indices[i + (mirrored ? 2 : 1)]);
+    out.push_back(first_vertex + indices[i + (mirrored ? 1 : 2)]);
+  }
+}
+
+/// Appends the mesh with its levels of detail to `into`, transformed by X_BM.
+void merge(picture::MeshData& into, const content::ImportedMesh& mesh, const CoarserMeshes& coarser,
+           const Eigen::Affine3d& X_BM) {
   const auto first = static_cast<std::uint32_t>(into.positions.size());
   const Eigen::Affine3f X = X_BM.cast<float>();
   const Eigen::Matrix3f linear = X.linear();
@@ -33,11 +43,23 @@ void merge(picture::MeshData& into, const content::ImportedMesh& mesh, const Eig
   into.uv.insert(into.uv.end(), mesh.uv.begin(), mesh.uv.end());
   into.uv.resize(into.positions.size(), Eigen::Vector2f::Zero());
   const bool mirrored = linear.determinant() < 0;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    into.indices.push_back(first + mesh.indices[i]);
-    into.indices.push_back(first + mesh.indices[i + (mirrored ? 2 : 1)]);
-    into.indices.push_back(first + mesh.indices[i + (mirrored ? 1 : 2)]);
+  append_triangles(mesh.indices, first, mirrored, into.indices);
+  const float scale = linear.colwise().norm().maxCoeff();
+  into.coarser.resize(coarser.size());
+  for (std::size_t level = 0; level < coarser.size(); ++level) {
+    into.coarser[level].error_m = std::max(into.coarser[level].error_m, scale * kLevelErrors_m[level]);
+    append_triangles(coarser[level], first, mirrored, into.coarser[level].indices);
   }
+}
+
+/// A level that saves little is not worth its memory.
+void drop_similar_levels(picture::MeshData& mesh) {
+  std::size_t finer = mesh.indices.size();
+  std::erase_if(mesh.coarser, [&finer](const picture::CoarserMesh& level) {
+    const bool similar = level.indices.size() * 4 > finer * 3;
+    if (!similar) finer = level.indices.size();
+    return similar;
+  });
 }
 
 /// Gives vertices without a normal the mean of their triangles', by area.
@@ -121,6 +143,7 @@ AssetLibrary::File& AssetLibrary::load(const std::string& uri) {
   Expected<PreparedFile> prepared = source_(uri);
   if (prepared) {
     file.first_material = add_materials(std::move(prepared->materials), std::move(prepared->images));
+    file.coarser = std::move(prepared->coarser);
     file.scene = std::make_unique<content::ImportedScene>(std::move(prepared->scene));
   } else {
     missing_.insert(uri);
@@ -163,12 +186,13 @@ ObjectModel AssetLibrary::build(const std::string& uri, const std::string& node)
     const Eigen::Affine3d X_BN = content::pose_in(scene, n, top);
     const bool water = is_water(scene, n);
     for (const std::uint32_t m : scene.nodes[n].meshes) {
-      merge(merged[{water, water ? 0 : scene.meshes[m].material}], scene.meshes[m], X_BN);
+      merge(merged[{water, water ? 0 : scene.meshes[m].material}], scene.meshes[m], file.coarser[m], X_BN);
     }
   }
   ObjectModel model;
   for (auto& [key, mesh] : merged) {
     fill_normals(mesh);
+    drop_similar_levels(mesh);
     mesh.name = name;
     for (const Vec3f& p : mesh.positions)
       model.box_B.extend(p);

@@ -65,6 +65,7 @@ class AssetLibrary {
  private:
   struct File {
     std::unique_ptr<content::ImportedScene> scene;  ///< null: missing
+    std::vector<CoarserMeshes> coarser;             ///< of its meshes
     std::uint32_t first_material = 0;
   };
   File& load(const std::string& uri);

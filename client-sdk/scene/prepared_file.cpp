@@ -1,6 +1,7 @@
 #include "client-sdk/scene/prepared_file.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -78,6 +79,7 @@ PreparedFile prepare(content::ImportedScene scene, const std::string& uri) {
     const bool clear_image = to.base_colour_image && is_clear(out.images[*to.base_colour_image]);
     to.clear = from.alpha_mode == content::AlphaMode::blend && (from.base_colour.w() < 1 || clear_image);
   }
+  std::ranges::transform(scene.meshes, std::back_inserter(out.coarser), coarser_meshes);
   scene.textures.clear();
   out.scene = std::move(scene);
   return out;

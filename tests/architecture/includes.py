@@ -66,6 +66,7 @@ LIBRARIES = {
     "SDL": (re.compile(r"(SDL2/|SDL\w*\.h$)"), {"client-sdk/display"}),
     "libcurl": (re.compile(r"curl/"), {"client-sdk/assets"}),
     "OpenAL": (re.compile(r"AL/"), {"client-sdk/sound"}),
+    "meshoptimizer": (re.compile(r"meshoptimizer"), {"client-sdk/scene"}),
     "libsndfile": (re.compile(r"sndfile"), {"client-sdk/sound"}),
 }
 # proto is the wrapper: its headers are where Cyclone DDS becomes typed topics.

@@ -17,6 +17,13 @@ struct SolidPiece {
   std::uint32_t piece = 0;
 };
 
+GpuAssets::Level level_of(const picture::Instance& instance, const PassInput& input) {
+  if (input.coarseness_px <= 0) return input.assets.level(instance.mesh);
+  const float away_m = distance_m(instance.X_WM, input.assets.box(instance.mesh), input.view.p_WE);
+  const float error_m = input.coarseness_px * pixel_m(input.view, input.size, away_m);
+  return input.assets.level(instance.mesh, error_m / scale_of(instance.X_WM));
+}
+
 /// The visible pieces of solid meshes (land, or all others), the nearest first, so that hidden fragments are not lit.
 /// The order is by logarithmic steps of distance, two per doubling, so that pieces of one thing stay together and the
 /// order changes little while something moves.
@@ -28,7 +35,8 @@ std::vector<SolidPiece> from_front_to_back(const PassInput& input, bool land) {
     if (input.assets.is_clear(instance.material) || input.assets.is_land(instance.material) != land) continue;
     const Eigen::Matrix4f PV_MC = PV * instance.X_WM.matrix();
     const std::vector<MeshPiece>& pieces = input.assets.pieces(instance.mesh);
-    for (std::uint32_t k = 0; k < pieces.size(); ++k) {
+    const GpuAssets::Level level = level_of(instance, input);
+    for (std::uint32_t k = level.first; k < level.end; ++k) {
       if (is_outside(PV_MC, pieces[k].box_M)) continue;
       const float away_m = distance_m(instance.X_WM, pieces[k].box_M, input.view.p_WE);
       out.push_back({std::floor(2 * std::log2(std::max(away_m, 0.1F))), i, k});

@@ -15,8 +15,9 @@ constexpr std::size_t kParticleFloats = 11;
 }  // namespace
 
 Expected<ParticlePass> ParticlePass::create(Shading shading) {
-  Expected<Program> program = Program::link(shading, {"sky.glsl", "lighting.glsl", "particle.vert"},
-                                            {"sky.glsl", "lighting.glsl", "noise.glsl", "particle.frag"});
+  Expected<Program> program =
+      Program::link(shading, {"tone.glsl", "sky.glsl", "lighting.glsl", "puff.glsl", "particle.vert"},
+                    {"sky.glsl", "lighting.glsl", "puff.glsl", "noise.glsl", "particle.frag"});
   if (!program) return tl::unexpected(program.error());
   ParticlePass pass(std::move(*program));
   glBindVertexArray(pass.vertex_array_.get());

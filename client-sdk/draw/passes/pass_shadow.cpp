@@ -5,9 +5,9 @@
 namespace mechane::draw {
 namespace {
 
-/// The meshes that cast shadows into this map.
+/// The meshes that cast shadows into this map, where their surfaces may be off by error_m.
 std::vector<ShownPieces> throwers(const picture::RenderScene& scene, const GpuAssets& assets, const ShadowSetup& setup,
-                                  std::size_t cascade) {
+                                  std::size_t cascade, float error_m) {
   const Eigen::Matrix4f PV = setup.PV(cascade);
   std::vector<ShownPieces> out;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -16,7 +16,8 @@ std::vector<ShownPieces> throwers(const picture::RenderScene& scene, const GpuAs
     const Eigen::Matrix4f PV_M = PV * instance.X_WM.matrix();
     const std::vector<MeshPiece>& pieces = assets.pieces(instance.mesh);
     ShownPieces thrower{0, i, {}};
-    for (std::uint32_t k = 0; k < pieces.size(); ++k) {
+    const GpuAssets::Level level = assets.level(instance.mesh, error_m / scale_of(instance.X_WM));
+    for (std::uint32_t k = level.first; k < level.end; ++k) {
       const Eigen::AlignedBox3f& box_M = pieces[k].box_M;
       if (!is_outside(PV_M, box_M) && !is_shadow_within(setup, cascade, instance.X_WM, box_M))
         thrower.pieces.push_back(k);
@@ -64,19 +65,20 @@ std::vector<float> shadows_of(const picture::RenderScene& scene, const std::vect
 
 }  // namespace
 
-Expected<ShadowPass> ShadowPass::create(std::uint32_t map_size) {
+Expected<ShadowPass> ShadowPass::create(std::uint32_t map_size, float coarseness_texels) {
   Expected<Program> program = Program::link({"depth.vert"}, {"depth.frag"});
   if (!program) return tl::unexpected(program.error());
   Expected<ShadowTarget> map = ShadowTarget::create(map_size, kMostCascades);
   if (!map) return tl::unexpected(map.error());
-  return ShadowPass(std::move(*program), std::move(*map));
+  return ShadowPass(std::move(*program), std::move(*map), coarseness_texels);
 }
 
 ShadowSetup ShadowPass::draw(const picture::RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes,
                              const std::vector<StreamedMesh>& soft_bodies) {
   ShadowSetup setup = shadow_setup(scene.focus_box_W, scene.shadow_box_W, scene.sun.to_sun_W, maps_.size);
   for (std::size_t cascade = 0; cascade < setup.cascades.size(); ++cascade) {
-    const std::vector<ShownPieces> solid = throwers(scene, assets, setup, cascade);
+    const std::vector<ShownPieces> solid =
+        throwers(scene, assets, setup, cascade, coarseness_texels_ * setup.cascades[cascade].texel_m(maps_.size));
     std::vector<float> wanted = shadows_of(scene, solid, setup, cascade);
     if (wanted == drawn_[cascade]) continue;
     drawn_[cascade] = std::move(wanted);

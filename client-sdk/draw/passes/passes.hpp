@@ -46,13 +46,15 @@ struct PassInput {
   std::optional<MirrorImage> mirror{};
   std::optional<LowLight> low{};                       ///< for programs with Shading::screen
   Eigen::Matrix4f crop = Eigen::Matrix4f::Identity();  ///< from clip space to that of the part which is drawn
+  float coarseness_px = 0;                             ///< how far solid surfaces may be off, pixels
 };
 
 /// Shadow maps from the sun, shared by both eyes; a map is drawn again only when something has moved that casts a
 /// shadow there.
 class ShadowPass {
  public:
-  [[nodiscard]] static Expected<ShadowPass> create(std::uint32_t map_size);
+  /// `coarseness_texels`: how far surfaces may be off there.
+  [[nodiscard]] static Expected<ShadowPass> create(std::uint32_t map_size, float coarseness_texels = 0);
   /// Returns the places of the maps.
   ShadowSetup draw(const picture::RenderScene& scene, const GpuAssets& assets, const StreamedMesh& ropes,
                    const std::vector<StreamedMesh>& soft_bodies);
@@ -63,11 +65,13 @@ class ShadowPass {
   [[nodiscard]] const ShadowTarget& maps() const { return maps_; }
 
  private:
-  ShadowPass(Program program, ShadowTarget maps) : program_(std::move(program)), maps_(std::move(maps)) {}
+  ShadowPass(Program program, ShadowTarget maps, float coarseness_texels)
+      : program_(std::move(program)), maps_(std::move(maps)), coarseness_texels_(coarseness_texels) {}
   void begin_map(const ShadowSetup& setup, std::size_t cascade) const;
 
   Program program_;
   ShadowTarget maps_;
+  float coarseness_texels_;
   std::array<std::vector<float>, kMostCascades> drawn_;  ///< the numbers with which each map was drawn
   std::uint64_t times_drawn_ = 0;
 };

@@ -5,6 +5,9 @@ flat in vec4 tint;
 flat in vec3 look;
 flat in float radius;
 flat in float sun;
+#ifdef LOW
+in vec3 shown;
+#endif
 out vec4 colour;
 
 uniform sampler2D depth;
@@ -32,6 +35,10 @@ void main() {
   float z_m = metres(gl_FragCoord.z);
   float behind_m = metres(texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r) - z_m;
   float opacity = tint.a * body * clamp(behind_m / (0.5 * radius + 0.002), 0.0, 1.0) * clamp(z_m * 4.0 - 0.4, 0.0, 1.0);
+#ifdef LOW
+  // Flames add their light and hide nothing; the root is near the screen's curve.
+  colour = look.z > 1.5 ? vec4(shown * sqrt(opacity * body), 0.0) : vec4(shown * opacity, opacity);
+#else
   if (look.z > 1.5) {
     // Flames add their light and hide nothing.
     colour = finish(vec4(tint.rgb * opacity * body, 0.0));
@@ -39,12 +46,6 @@ void main() {
   }
   vec3 n_C = vec3(place, sqrt(max(1.0 - r * r, 0.0)));
   vec3 n = transpose(mat3(V_CW)) * n_C;
-  // Light is scattered inside a cloud, so even its far side is not dark.
-  float round = 0.45 + 0.55 * (0.5 + 0.5 * dot(n, to_sun));
-  vec3 light = irradiance_from_sky(n) / kPi + sun_irradiance * sun * round * 0.5 / kPi + fire_irradiance(p_W, vec3(0.0)) / kPi;
-  if (look.z > 0.5) {
-    vec3 v = normalize(eye_W - p_W);
-    light = light * 0.55 + reflected_sky(reflect(-v, n), 0.1) * 0.45 + sun_irradiance * sun * 0.5 * pow(max(dot(reflect(-v, n), to_sun), 0.0), 24.0);
-  }
-  colour = finish(vec4(through_air(light * tint.rgb, p_W) * opacity, opacity));
+  colour = finish(vec4(through_air(puff_light(n, p_W, sun, look.z) * tint.rgb, p_W) * opacity, opacity));
+#endif
 }

@@ -14,6 +14,9 @@ flat out vec4 tint;
 flat out vec3 look;
 flat out float radius;
 flat out float sun;
+#ifdef LOW
+out vec3 shown;  // its colour on the screen: computed here, a picture of steam costs a tenth
+#endif
 
 void main() {
   place = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);
@@ -29,4 +32,10 @@ void main() {
   radius = radius_m;
   sun = look_in.z > 1.5 ? 0.0 : sunlight(middle_W, to_sun);
   gl_Position = P * p_C;
+#ifdef LOW
+  // The ball's normal half way to this corner.
+  vec3 n = transpose(mat3(V_CW)) * vec3(place * 0.6, 0.53);
+  vec3 light = look_in.z > 1.5 ? tint.rgb : puff_light(n, p_W, sun, look_in.z) * tint.rgb;
+  shown = srgb(aces((look_in.z > 1.5 ? light : through_air(light, p_W)) * exposure));
+#endif
 }

@@ -221,7 +221,6 @@ class KeptPictures : public PlacePictures {
     last_ = place_->scene(3);
     last_.camera = first_.camera;
     last_.inset = first_.inset;
-    last_.effects = first_.effects;  // fires of another strength would be another light, for which all is drawn anew
   }
 
   /// The last moment, in this quality.
@@ -229,10 +228,11 @@ class KeptPictures : public PlacePictures {
     const std::unique_ptr<draw::Renderer> renderer = make_renderer(quality);
     renderer->upload(place_->assets());
     // Until what stands still is known and kept; then in motion.
-    const auto turns = static_cast<int>(draw::LowRenderer::kStill) + 2;
+    const auto turns = static_cast<int>(draw::LowRenderer::kStill + draw::LowRenderer::kSlices) + 2;
     for (int turn = 0; turn < turns; ++turn)
       EXPECT_TRUE(renderer->draw(first_, picture::Stereo::mono, kPicture));
-    EXPECT_TRUE(renderer->draw(last_, picture::Stereo::mono, kPicture));
+    for (int turn = 0; turn < 2; ++turn)  // a close-up is drawn in one of them
+      EXPECT_TRUE(renderer->draw(last_, picture::Stereo::mono, kPicture));
     if (quality == draw::Quality::cached) {
       EXPECT_GT(renderer->low()->times_kept(), 0U);
     }

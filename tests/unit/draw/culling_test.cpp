@@ -57,7 +57,7 @@ TEST(Culling, what_lies_behind_or_beside_is_hidden) {
 
 TEST(Culling, pieces_are_all_of_the_mesh_and_lie_in_their_boxes) {
   const picture::MeshData mesh = picture::sphere_mesh(1, 40, 60);
-  const PiecedIndices cut = cut_up(mesh, 100);
+  const PiecedIndices cut = cut_up(mesh, mesh.indices, 100);
   EXPECT_GT(cut.pieces.size(), 40U);
   const auto triangles_in = [](const std::vector<std::uint32_t>& indices) {
     std::vector<std::array<std::uint32_t, 3>> out;
@@ -79,7 +79,7 @@ TEST(Culling, pieces_are_all_of_the_mesh_and_lie_in_their_boxes) {
   }
   EXPECT_EQ(next, cut.indices.size());
   EXPECT_LT(volume, 6) << "pieces lie together: 64 boxes of the whole would have 512";
-  EXPECT_TRUE(cut_up(picture::MeshData{}, 100).pieces.empty());
+  EXPECT_TRUE(cut_up(picture::MeshData{}, {}, 100).pieces.empty());
 }
 
 }  // namespace

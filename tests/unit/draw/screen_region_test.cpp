@@ -82,6 +82,34 @@ RC_GTEST_PROP(ScreenRegion, merged_ones_contain_all_and_do_not_overlap, ()) {
   }
 }
 
+RC_GTEST_PROP(ScreenRegion, cells_cover_all_once_and_little_else, ()) {
+  constexpr picture::PixelSize kSize{150, 110};  // no whole number of cells
+  constexpr int kNear = 32;
+  std::vector<ScreenRegion> regions;
+  for (int i = *rc::gen::inRange(0, 5); i > 0; --i) {
+    const int left = *rc::gen::inRange(0, 150);
+    const int bottom = *rc::gen::inRange(0, 110);
+    regions.push_back({left, bottom, *rc::gen::inRange(left, 151), *rc::gen::inRange(bottom, 111)});
+  }
+  const std::vector<ScreenRegion> out = covered(regions, kSize);
+  for (int x = 0; x < 150; x += 3) {
+    for (int y = 0; y < 110; y += 3) {
+      const auto near = [&](int margin) {
+        return [=](const ScreenRegion& r) {
+          return !r.empty() && x >= r.left - margin && x < r.right + margin && y >= r.bottom - margin &&
+                 y < r.top + margin;
+        };
+      };
+      const auto count = std::ranges::count_if(out, near(0));
+      RC_ASSERT(count <= 1);
+      if (std::ranges::any_of(regions, near(0))) RC_ASSERT(count == 1);
+      if (count == 1) RC_ASSERT(std::ranges::any_of(regions, near(kNear)));
+    }
+  }
+  for (const ScreenRegion& region : out)
+    RC_ASSERT(region.right <= 150 && region.top <= 110);
+}
+
 TEST(ScreenRegion, a_crop_brings_the_region_s_corners_to_those_of_clip_space) {
   const ScreenRegion region{50, 20, 150, 45};
   const Eigen::Matrix4f crop = crop_to(region, kRegionPicture);
