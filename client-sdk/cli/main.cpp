@@ -38,12 +38,13 @@ struct Program {
 };
 
 /// Commands that are programs of their own: `mechane server` runs mechane-server.
-constexpr std::array<Program, 7> kPrograms{{
+constexpr std::array<Program, 8> kPrograms{{
     {"server", "run worlds and publish them"},
     {"display", "show a world, in a window or to pictures"},
     {"haptic", "run a haptic device, real or virtual"},
     {"devices", "list the drivers of haptic devices, and try a device"},
     {"visitor", "play a scenario's visit like a person"},
+    {"gateway", "show kiosks and the operator's console to web browsers"},
     {"fit", "make meshes ready for touch, and report how accurately they feel"},
     {"replay", "run a journal again and compare its state hashes"},
 }};

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 namespace mechane::pointer {
 
@@ -26,6 +27,10 @@ constexpr std::size_t kPointerKeys = 11;
 using FingerId = std::int64_t;
 /// The mouse, which is always there.
 constexpr FingerId kMouse = 0;
+
+/// What a notch of the wheel does: the carried thing's distance grows by this share of it, or the held thing turns.
+inline constexpr double kNotch = 0.03;
+inline constexpr double kNotchTurn_rad = std::numbers::pi / 18;
 
 /// One event; events come in the order in which they happened.
 struct PointerEvent {

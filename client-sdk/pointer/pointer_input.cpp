@@ -14,8 +14,6 @@ constexpr Duration kLookUnderHover = std::chrono::milliseconds(100);
 constexpr double kFocusSpeed = 0.3;         // shares of the picture's height per second
 constexpr double kKeyTurn_rad_per_s = 2.1;  // 20 turns a minute
 constexpr double kKeyTwist_rad_per_s = 1.2;
-constexpr double kNotch = 0.03;              // share of the distance per notch of the wheel
-constexpr double kNotchTurn_rad = kPi / 18;  // with Shift
 constexpr double kKeyNotches_per_s = 8;
 constexpr double kLongestPicture_s = 0.25;
 

@@ -46,6 +46,7 @@ ARROWS = {
     "client-sdk/visitor": ["client-sdk/haptic", "client-sdk/pointer", "client-sdk/scene", "server/scenario"],  # a person at a device
     "client-sdk/fit": ["server/content"],
     "client-sdk/authoring": ["server/scenario"],
+    "client-sdk/gateway": ["client-sdk/visit", "client-sdk/pointer", "server/content", "server/visits"],
     "client-sdk/cli": ["client-sdk/recording", "client-sdk/authoring", "server/content", "server/visits"],
     "client-sdk/examples": ["client-sdk/client"],
 }
@@ -64,6 +65,9 @@ LIBRARIES = {
     "spdlog": (re.compile(r"spdlog/"), {"server/log"}),
     "OpenGL": (re.compile(r"(epoxy|EGL|GL|GLES\d?|KHR)/"), {"client-sdk/draw", "client-sdk/display"}),
     "SDL": (re.compile(r"(SDL2/|SDL\w*\.h$)"), {"client-sdk/display"}),
+    "Boost.Beast": (re.compile(r"boost/(asio|beast|system)\b"), {"client-sdk/drivers", "client-sdk/gateway"}),
+    "OpenSSL": (re.compile(r"openssl/"), {"client-sdk/gateway"}),
+    "libsodium": (re.compile(r"sodium"), {"client-sdk/gateway"}),
     "libcurl": (re.compile(r"curl/"), {"client-sdk/assets"}),
     "OpenAL": (re.compile(r"AL/"), {"client-sdk/sound"}),
     "meshoptimizer": (re.compile(r"meshoptimizer"), {"client-sdk/scene"}),

@@ -100,6 +100,27 @@ struct DisplayStatus {
   std::vector<RequestAnswer> answers;    ///< to the last requests, newest last
 };
 
+/// A display that has no Client of its own, such as a browser behind a gateway: reports its status and takes requests. One thread at a time.
+class DisplaySeat {
+ public:
+  virtual ~DisplaySeat() = default;
+  /// As Client::report().
+  virtual bool report(const DisplayStatus& status) = 0;
+  /// As Client::take_display_requests().
+  [[nodiscard]] virtual std::vector<DisplayRequest> take_requests() = 0;
+};
+
+/// Makes such displays, which share one link to the network.
+class DisplaySeats {
+ public:
+  /// Errors: a domain over 230, a configuration of the network that cannot be used.
+  [[nodiscard]] static Expected<std::unique_ptr<DisplaySeats>> open(std::uint32_t domain);
+  virtual ~DisplaySeats() = default;
+  /// The seat must not outlive its maker. Any thread, one at a time. Errors: a bad name; the network refuses it.
+  [[nodiscard]] virtual Expected<std::unique_ptr<DisplaySeat>> add(const std::string& kiosk,
+                                                                   const std::string& display) = 0;
+};
+
 /// SceneFrames of this client since it was made.
 struct FrameTraffic {
   std::uint64_t received = 0;

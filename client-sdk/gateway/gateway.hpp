@@ -1,0 +1,27 @@
+// The gateway as a whole: what it is started with, and its life from start to end.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "client-sdk/gateway/web_server.hpp"
+
+namespace mechane::gateway {
+
+struct GatewayOptions {
+  WebServerOptions web;
+  std::uint32_t domain = 0;
+  std::filesystem::path app;      ///< folder of the built web app; empty: there is none
+  std::filesystem::path state;    ///< accounts, certificate, audit log; made where it is missing
+  std::filesystem::path records;  ///< the server's; empty: no visits are shown
+  std::vector<std::string> kiosks{"kiosk-1"};
+  bool plain = false;  ///< beyond this machine without TLS, too
+  Duration token_idle = std::chrono::minutes(30);
+};
+
+/// Serves until SIGINT or SIGTERM; prints the addresses of kiosks and console. Blocks. Errors: what keeps it from starting.
+[[nodiscard]] Expected<void> run_gateway(GatewayOptions options);
+
+}  // namespace mechane::gateway

@@ -1,0 +1,385 @@
+#include "client-sdk/gateway/operator_api.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "client-sdk/gateway/request_path.hpp"
+#include "client-sdk/gateway/secrets.hpp"
+#include "client-sdk/gateway/security_headers.hpp"
+#include "server/log/log.hpp"
+#include "server/visits/visit_file.hpp"
+#include <mechane/proto/identity.hpp>
+
+namespace mechane::gateway {
+namespace {
+
+using ApiJson = nlohmann::json;
+using Done = Site::Done;
+using client::DisplayStatus;
+
+constexpr Duration kOpensWithin = std::chrono::seconds(15);
+constexpr Duration kAnswersWithin = std::chrono::seconds(5);
+constexpr Duration kPictureWithin = std::chrono::seconds(20);
+constexpr std::size_t kAuditShown = 500;
+
+HttpAnswer json_answer(const ApiJson& json, unsigned status = 200) {
+  HttpAnswer answer =
+      answer_with(json.dump(-1, ' ', false, ApiJson::error_handler_t::replace), "application/json", status);
+  answer.headers.emplace_back("Cache-Control", "no-store");
+  return answer;
+}
+
+HttpAnswer not_allowed(std::string_view role) {
+  return refusal(403, "this is for the role " + std::string(role), "sign in as somebody who has it");
+}
+
+HttpAnswer unknown_kiosk(const std::string& kiosk) {
+  return refusal(404, "there is no kiosk '" + kiosk + "'", "GET /api/kiosks lists them");
+}
+
+ApiJson display_json(const DisplayStatus& display) {
+  ApiJson settings = ApiJson::object();
+  for (const client::DisplaySetting& setting : display.settings)
+    settings[setting.name] = setting.value;
+  return {{"display", display.display},
+          {"session", std::to_string(display.session)},
+          {"version", display.version},
+          {"host", display.host},
+          {"uptime", display.uptime_s},
+          {"width", display.width},
+          {"height", display.height},
+          {"picturesPerS", display.pictures_per_s},
+          {"pictureMsMedian", display.picture_ms_median},
+          {"pictureMsP99", display.picture_ms_p99},
+          {"link", display.link},
+          {"refusal", display.refusal},
+          {"world", display.world},
+          {"scenario", display.scenario},
+          {"framesPerS", display.frames_per_s},
+          {"framesLost", display.frames_lost},
+          {"missing", display.missing},
+          {"renderer", display.renderer},
+          {"sound", display.sound},
+          {"soundProblem", display.sound_problem},
+          {"showing", display.showing},
+          {"warnings", display.warnings},
+          {"lastWarning", display.last_warning},
+          {"settings", settings}};
+}
+
+std::string origin_seen(const HttpRequest& request) {
+  return (request.secure ? "https://" : "http://") + request.header("host");
+}
+
+ApiJson kiosk_json(GatewaySite& site, const std::string& kiosk, const HttpRequest& request, bool with_address) {
+  ApiJson out{{"kiosk", kiosk}, {"displays", ApiJson::array()}, {"scenario", ""}, {"world", ""}, {"browsers", 0}};
+  for (const DisplayStatus& display : site.watch().displays()) {
+    if (display.kiosk != kiosk) continue;
+    out["displays"].push_back(display_json(display));
+    if (!display.world.empty()) out["world"] = display.world;
+    if (!display.scenario.empty()) out["scenario"] = display.scenario;
+  }
+  if (const auto hub = site.hubs().find(kiosk); hub != site.hubs().end()) {
+    out["browsers"] = hub->second->browsers();
+    if (const client::WorldStatus* status = hub->second->status()) {
+      out["world"] = status->world;
+      out["scenario"] = status->scenario;
+      out["activity"] = status->activity;
+      out["step"] = status->step;
+    }
+  }
+  if (with_address) out["address"] = site.address_of(kiosk, origin_seen(request));
+  return out;
+}
+
+ApiJson server_json(const client::ServerStatus& status) {
+  return {{"server", status.server},
+          {"version", status.version},
+          {"worlds", status.worlds},
+          {"worldsLimit", status.worlds_limit},
+          {"users", status.users},
+          {"ticks", status.ticks},
+          {"overruns", status.overruns},
+          {"lateWakeups", status.late_wakeups},
+          {"preemptions", status.preemptions},
+          {"tickUs",
+           {{"median", status.tick_us_median},
+            {"p99", status.tick_us_p99},
+            {"p999", status.tick_us_p999},
+            {"max", status.tick_us_max}}},
+          {"wakeUs", {{"p99", status.wake_us_p99}, {"max", status.wake_us_max}}},
+          {"realtime", status.realtime},
+          {"recordsOk", status.records_ok},
+          {"scenarios", status.scenarios},
+          {"inputGaps", status.input_gaps},
+          {"inputGapMs", status.input_gap_ms},
+          {"overload", status.overload}};
+}
+
+/// The server is heard by a kiosk's client: that of a kiosk in use, or else of the first one.
+void answer_server(GatewaySite& site, const Done& done) {
+  std::shared_ptr<KioskHub> hub;
+  for (const auto& [kiosk, known] : site.hubs())
+    if (!hub || known->browsers() > 0) hub = known;
+  const auto gateway = [&site] {
+    const WebServer::Traffic traffic = site.traffic();
+    return ApiJson{{"version", MECHANE_VERSION},
+                   {"connections", traffic.connections},
+                   {"refused", traffic.refused},
+                   {"framesSkipped", traffic.frames_skipped}};
+  };
+  if (!hub) return done(json_answer({{"server", nullptr}, {"gateway", gateway()}}));
+  site.wait_for(
+      [hub, gateway]() -> std::optional<HttpAnswer> {
+        const auto status = hub->client() == nullptr ? std::nullopt : hub->client()->server_status();
+        if (!status) return std::nullopt;
+        return json_answer({{"server", server_json(*status)}, {"gateway", gateway()}});
+      },
+      std::chrono::seconds(2), json_answer({{"server", nullptr}, {"gateway", gateway()}}), done);
+}
+
+HttpAnswer visits_answer(const std::filesystem::path& records, std::int64_t days) {
+  const auto file = visits::VisitFile::open(records / visits::kVisitFileName, visits::VisitFile::Access::read);
+  if (!file) return refusal(file.error());
+  visits::VisitChoice choice;
+  choice.since = visits::minute_now() - days * 24 * 60;
+  const auto found = file->records(choice);
+  if (!found) return refusal(found.error());
+  struct Count {
+    std::size_t visits = 0, done = 0, alone = 0, left = 0;
+    double done_s = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Count> counts;
+  for (const visits::VisitRecord& record : *found) {
+    Count& count = counts[{record.scenario, record.activity}];
+    ++count.visits;
+    if (record.ending == visits::VisitEnding::left) ++count.left;
+    if (record.ending != visits::VisitEnding::done) continue;
+    ++count.done;
+    count.done_s += record.duration_s;
+    if (record.done_alone()) ++count.alone;
+  }
+  ApiJson activities = ApiJson::array();
+  for (const auto& [name, count] : counts)
+    activities.push_back({{"scenario", name.first},
+                          {"activity", name.second},
+                          {"visits", count.visits},
+                          {"done", count.done},
+                          {"doneAlone", count.alone},
+                          {"left", count.left},
+                          {"meanS", count.done == 0 ? 0 : count.done_s / static_cast<double>(count.done)}});
+  return json_answer({{"days", days}, {"visits", found->size()}, {"activities", activities}});
+}
+
+void answer_visits(GatewaySite& site, const HttpRequest& request, const Done& done) {
+  if (site.options().records.empty())
+    return done(refusal(404, "this gateway was started without records", "start it with --records FOLDER"));
+  const std::string wanted = request.query_value("days");
+  const bool digits = wanted.size() <= 4 && std::ranges::all_of(wanted, [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits) return done(refusal(400, "days is no number of days", "write days=7"));
+  const std::int64_t days = wanted.empty() ? 1 : std::stoi(wanted);
+  site.on_disk([records = site.options().records, days] { return visits_answer(records, days); }, done);
+}
+
+HttpAnswer audit_answer(const std::filesystem::path& file) {
+  ApiJson list = ApiJson::array();
+  for (const AuditEntry& entry : newest_entries(file, kAuditShown))
+    list.push_back({{"time", entry.time},
+                    {"user", entry.user},
+                    {"address", entry.address},
+                    {"action", entry.action},
+                    {"detail", entry.detail}});
+  return json_answer({{"entries", list}});
+}
+
+// POST
+
+std::optional<std::string> text_of(const ApiJson& json, const char* key) {
+  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return std::nullopt;
+  return json[key].get<std::string>();
+}
+
+void open_exhibit(GatewaySite& site, const std::string& kiosk, const std::string& scenario, const Done& done) {
+  const auto hub = site.hub_of(kiosk);
+  if (!hub) return done(refusal(503, "too many kiosks are in use", "try again later"));
+  const auto sent = std::make_shared<std::uint64_t>(0);
+  const auto look = [hub, scenario, sent]() -> std::optional<HttpAnswer> {
+    hub->use(std::chrono::steady_clock::now());
+    if (hub->link() != client::LinkState::joined || hub->status() == nullptr) return std::nullopt;
+    const auto server = hub->client()->server_status();
+    if (!server || server->scenarios.empty()) return std::nullopt;
+    const std::string wanted = scenario.empty() ? server->scenarios.front() : scenario;
+    if (std::ranges::count(server->scenarios, wanted) == 0)
+      return refusal(404, "the server has no exhibit '" + wanted + "'", "GET /api/server lists them");
+    if (hub->status()->scenario == wanted)
+      return json_answer({{"world", hub->status()->world}, {"scenario", wanted}});
+    if (*sent == 0) *sent = hub->client()->open_exhibit(scenario);
+    if (*sent != 0 && hub->refused(*sent))
+      return refusal(409, "the server refused to open the exhibit", "see the server's log");
+    return std::nullopt;
+  };
+  site.wait_for(look, kOpensWithin,
+                refusal(504, "the kiosk did not go on to the exhibit in time", "check that the server runs"), done);
+}
+
+/// The displays that a request is for, by session.
+std::vector<DisplayStatus> meant_displays(GatewaySite& site, const std::string& kiosk, const std::string& display) {
+  std::vector<DisplayStatus> meant = site.watch().displays();
+  std::erase_if(meant, [&](const DisplayStatus& one) {
+    return one.kiosk != kiosk || (!display.empty() && one.display != display);
+  });
+  return meant;
+}
+
+std::optional<client::RequestAnswer> answer_of(const DisplayStatus& display, std::uint64_t id) {
+  const auto found = std::ranges::find(display.answers, id, &client::RequestAnswer::id);
+  if (found == display.answers.end()) return std::nullopt;
+  return *found;
+}
+
+void change_settings(GatewaySite& site, const std::string& kiosk, const ApiJson& json, const Done& done) {
+  std::vector<client::DisplaySetting> settings;
+  const bool listed = json.contains("settings") && json["settings"].is_object() && json["settings"].size() <= 20;
+  if (!listed) return done(refusal(400, "there are no settings", R"(send {"settings":{"volume":"0.5"}})"));
+  for (const auto& [name, value] : json["settings"].items()) {
+    if (!value.is_string()) return done(refusal(400, "a setting's value is no text: " + name, "write it in quotes"));
+    settings.push_back({name, value.get<std::string>()});
+  }
+  const std::string display = text_of(json, "display").value_or("");
+  const std::size_t asked = meant_displays(site, kiosk, display).size();
+  if (asked == 0) return done(refusal(404, "no such display is running", "GET /api/kiosks lists them"));
+  const auto id = site.watch().request(kiosk, display, {.settings = settings});
+  if (!id) return done(refusal(id.error()));
+  const auto look = [&site, kiosk, display, asked, id = *id]() -> std::optional<HttpAnswer> {
+    ApiJson answers = ApiJson::array();
+    for (const DisplayStatus& one : meant_displays(site, kiosk, display))
+      if (const auto answer = answer_of(one, id))
+        answers.push_back({{"display", one.display}, {"refusal", answer->refusal}});
+    if (answers.size() < asked) return std::nullopt;
+    return json_answer({{"answers", answers}});
+  };
+  site.wait_for(look, kAnswersWithin,
+                refusal(504, "not every display answered in time", "GET /api/kiosks shows what was changed"), done);
+}
+
+HttpAnswer picture_file(const std::string& path) {
+  FileStore once;
+  const std::filesystem::path file(path);
+  if (content_type_of(file) != "image/png") return refusal(502, "the display's picture is no PNG file", "see its log");
+  return once.answer({file.parent_path(), file.filename().string()});
+}
+
+void take_picture(GatewaySite& site, const std::string& kiosk, const std::string& display, const Done& done) {
+  if (meant_displays(site, kiosk, display).size() != 1)
+    return done(refusal(404, "a picture is taken of one display at a time", "name one that runs: GET /api/kiosks"));
+  const auto id = site.watch().request(kiosk, display, {.picture = true});
+  if (!id) return done(refusal(id.error()));
+  const auto path = std::make_shared<std::string>();
+  const auto then = [&site, path, done](HttpAnswer answer) {
+    if (path->empty()) return done(std::move(answer));
+    site.on_disk([path] { return picture_file(*path); }, done);
+  };
+  const auto look = [&site, kiosk, display, path, id = *id]() -> std::optional<HttpAnswer> {
+    for (const DisplayStatus& one : meant_displays(site, kiosk, display)) {
+      const auto answer = answer_of(one, id);
+      if (!answer) continue;
+      if (!answer->refusal.empty()) return refusal(409, answer->refusal, "start the display with --out FOLDER");
+      if (one.host != proto::host_name())
+        return refusal(409, "the picture is on another machine: " + one.host, "look at " + answer->picture + " there");
+      *path = answer->picture;
+      return HttpAnswer{};
+    }
+    return std::nullopt;
+  };
+  site.wait_for(look, kPictureWithin, refusal(504, "the display took no picture in time", "see its log"), then);
+}
+
+void put_account(GatewaySite& site, const ApiJson& json, const Done& done) {
+  const auto user = text_of(json, "user"), role = text_of(json, "role"), password = text_of(json, "password");
+  const auto known = role ? role_of(*role) : std::nullopt;
+  if (!user || !known || !password)
+    return done(refusal(400, "user, role and password are needed", "roles are visitor, author and operator"));
+  if (password->size() < Accounts::kLeastPassword)
+    return done(refusal(400, "the password is too short", "take ten letters or more"));
+  const bool given = site.on_passwords(
+      [&site, user = *user, role = *known, password = *password, done]() -> std::function<void()> {
+        auto hash = hash_password(password);
+        return [&site, user, role, done, hash] {
+          if (!hash) return done(refusal(hash.error()));
+          if (auto put = site.accounts().put(user, {role, *hash}); !put) return done(refusal(put.error()));
+          site.sessions().end_of(user);
+          done(json_answer(ApiJson::object()));
+        };
+      });
+  if (!given) done(refusal(503, "too many passwords at a time", "try again in a few seconds"));
+}
+
+ApiJson accounts_json(const Accounts& accounts) {
+  ApiJson list = ApiJson::array();
+  for (const auto& [user, account] : accounts.all())
+    list.push_back({{"user", user}, {"role", word_of(account.role)}});
+  return {{"accounts", list}};
+}
+
+bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::string& verb, const ApiJson& json,
+                   const Done& done) {
+  if (!site.knows_kiosk(kiosk)) return done(unknown_kiosk(kiosk)), true;
+  if (verb == "open") {
+    const auto scenario = text_of(json, "scenario");
+    if (!scenario) return done(refusal(400, "no scenario is named", R"(send {"scenario":""} for home)")), true;
+    return open_exhibit(site, kiosk, *scenario, done), true;
+  }
+  if (verb == "settings") return change_settings(site, kiosk, json, done), true;
+  if (verb != "picture") return false;
+  return take_picture(site, kiosk, text_of(json, "display").value_or(""), done), true;
+}
+
+}  // namespace
+
+bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest& request, const Done& done) {
+  if (session.role == Role::visitor) return done(not_allowed("author or operator")), true;
+  const std::string& path = request.path;
+  const bool operates = session.role == Role::manager;
+  if (path == "/api/kiosks") {
+    ApiJson list = ApiJson::array();
+    for (const std::string& kiosk : site.kiosks())
+      list.push_back(kiosk_json(site, kiosk, request, operates));
+    return done(json_answer({{"kiosks", list}})), true;
+  }
+  if (path == "/api/server") return answer_server(site, done), true;
+  if (path == "/api/visits") return answer_visits(site, request, done), true;
+  const bool for_operators = path == "/api/audit" || path == "/api/accounts";
+  if (!for_operators) return false;
+  if (!operates) return done(not_allowed("operator")), true;
+  if (path == "/api/accounts") return done(json_answer(accounts_json(site.accounts()))), true;
+  site.on_disk([file = site.audit().file()] { return audit_answer(file); }, done);
+  return true;
+}
+
+bool answer_api_post(GatewaySite& site, const Session& session, const HttpRequest& request, const Done& done) {
+  if (session.role != Role::manager) return done(not_allowed("operator")), true;
+  const ApiJson json = ApiJson::parse(request.body, nullptr, false);
+  if (!json.is_object()) return done(refusal(400, "this request is no JSON object", "send an object")), true;
+  ApiJson told = json;  // without secrets
+  if (told.contains("password")) told["password"] = "...";
+  const std::string detail = told.dump(-1, ' ', false, ApiJson::error_handler_t::replace).substr(0, 500);
+  if (!site.note(session, request, request.path, detail))
+    return done(refusal(500, "the audit log cannot be written, so nothing was done", "see the gateway's log")), true;
+  if (request.path == "/api/accounts") return put_account(site, json, done), true;
+  if (request.path == "/api/accounts/remove") {
+    const std::string user = text_of(json, "user").value_or("");
+    auto removed = site.accounts().remove(user);
+    if (!removed) return done(refusal(removed.error())), true;
+    site.sessions().end_of(user);
+    return done(json_answer(ApiJson::object())), true;
+  }
+  constexpr std::string_view kKiosks = "/api/kiosks/";
+  if (!request.path.starts_with(kKiosks)) return false;
+  const std::string rest = request.path.substr(kKiosks.size());
+  const std::size_t slash = rest.find('/');
+  if (slash == std::string::npos) return false;
+  return post_to_kiosk(site, rest.substr(0, slash), rest.substr(slash + 1), json, done);
+}
+
+}  // namespace mechane::gateway

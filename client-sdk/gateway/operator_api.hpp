@@ -1,0 +1,15 @@
+// The API of operators and authors: kiosks, displays, the server, visits, accounts, the audit log. STREAM.md lists it.
+#pragma once
+
+#include "client-sdk/gateway/site.hpp"
+
+namespace mechane::gateway {
+
+/// False: there is no such address. On the loop's thread, as the site.
+[[nodiscard]] bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest& request,
+                                  const Site::Done& done);
+/// The same of a POST, whose session, origin and CSRF header were checked.
+[[nodiscard]] bool answer_api_post(GatewaySite& site, const Session& session, const HttpRequest& request,
+                                   const Site::Done& done);
+
+}  // namespace mechane::gateway

@@ -1,0 +1,17 @@
+// What each answer tells the browser to allow a page: only what comes from here.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mechane::gateway {
+
+/// `host`: the request's Host header, as the browser sent it; what is no host's name is left out.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host);
+
+/// Whether a request with this Origin comes from a page of this host: both from the browser. An empty origin: no.
+[[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host, bool secure);
+
+}  // namespace mechane::gateway

@@ -1,0 +1,286 @@
+"""The gateway: a kiosk in browsers, the operator's API, and what is refused."""
+
+import json
+import math
+import re
+import socket
+import unittest
+
+from browser import Browser, Page, Refused
+from harness import ROOT, SCENARIO, EndToEnd, marked, wait_until
+from touch import TouchVisitor, cross, placed
+
+SIZE = (480, 270)
+
+
+class WebVisitor(TouchVisitor):
+    """The visitor's finger, on a browser's picture: the browser casts the ray, the gateway moves the hand."""
+
+    def __init__(self, browser, scenario, kiosk, environment):
+        super().__init__(scenario, kiosk, SIZE, environment)
+        self.browser, self.pick = browser, None
+        self.screen.see_room = lambda p, at: None  # this picture makes no room
+
+    def camera(self):
+        screen = self.screen
+        rows = [screen.right, screen.up, [-x for x in screen.ahead]]
+        m = [[rows[column][row] for column in range(3)] for row in range(3)]  # columns are the camera's axes
+        w = math.sqrt(max(0, 1 + m[0][0] + m[1][1] + m[2][2])) / 2
+        q = [(m[2][1] - m[1][2]) / (4 * w), (m[0][2] - m[2][0]) / (4 * w), (m[1][0] - m[0][1]) / (4 * w), w]
+        return {"pose": [*screen.eye, *q], "fov": 2 * math.atan(screen.half), "aspect": SIZE[0] / SIZE[1]}
+
+    def take(self, body, grip):
+        self.pick = {"object": self.objects[body], "p": placed(self.pose(body), grip), "n": [0, 0, 1]}
+        return super().take(body, grip)
+
+    def xdo(self, *words):
+        kinds = {"mousedown": "press", "mouseup": "release"}
+        events = [{"kind": "move", "x": float(words[1]), "y": float(words[2])}] if words[0] == "mousemove" else []
+        events += [{"kind": kinds[word], "x": float(self.at[0]), "y": float(self.at[1])} for word in words if word in kinds]
+        for event in events:
+            if event["kind"] == "press":
+                event["pick"] = self.pick
+        self.browser.say(type="pointer", events=events, picture=SIZE, camera=self.camera())
+
+
+class Gateway(EndToEnd):
+    def gateway(self, *arguments):
+        """A gateway at a port of its own, with an app of two files, and a page of it."""
+        (self.folder / "app/assets").mkdir(parents=True, exist_ok=True)
+        (self.folder / "app/index.html").write_text("<!doctype html><title>Mechane</title>")
+        (self.folder / "app/assets/main-1.js").write_text("'use strict'")
+        self.state = self.folder / "state"
+        listen = [] if "--listen" in arguments else ["--listen", "127.0.0.1:0"]
+        process = self.start("gateway", "gateway", *listen, "--state", self.state, "--app", self.folder / "app", *arguments)
+        wait_until(lambda: "\nready" in process.text() or not process.running(), 60, "the gateway is ready")
+        self.assertTrue(process.running(), process.text())
+        address = re.search(r"console: (https?)://[^:]+:(\d+)/console", process.text())
+        page = Page(int(address.group(2)), tls=address.group(1) == "https")
+        if found := re.search(r"operator (\S+)", process.text()):
+            self.password = found.group(1)
+        return process, page
+
+    def token(self, process, kiosk="kiosk-1"):
+        return re.search(rf"kiosk {kiosk}: \S+\?token=(\S+)", process.text()).group(1)
+
+    def path(self, process, kiosk="kiosk-1"):
+        return f"/ws/kiosk/{kiosk}?token={self.token(process, kiosk)}"
+
+    def refused(self, page, path, status, **how):
+        with self.assertRaises(Refused) as refusal:
+            Browser(page, path, **how)
+        self.assertEqual(refusal.exception.status, status, refusal.exception.body)
+        self.assertTrue(json.loads(refusal.exception.body)["remedy"])
+
+    @marked("alone", "not-address")
+    def test_a_browser_sees_the_screw_and_turns_its_crank(self):
+        self.server()
+        process, page = self.gateway()
+        browser = Browser(page, self.path(process))
+        self.addCleanup(browser.close)
+        self.assertEqual(browser.wait("hello")["protocol"], 1)
+        browser.wait("link", lambda link: link["state"] == "joined")
+        scene, world = browser.wait("scene"), browser.wait("world")
+        self.assertEqual(world["scenario"], "archimedes-screw")
+        self.assertIn("title", browser.wait("overlay"))
+        wait_until(lambda: browser.frames > 30, 20, "frames come")
+        self.assertLess(browser.frame.age_s, 0.05)
+        self.assertEqual(set(browser.frame.bodies), {o["index"] for o in scene["objects"] if o["movable"]})
+
+        # The mesh, whole, by a part, and not again.
+        (hash_,) = {o["hash"] for o in scene["objects"] if o["hash"]}
+        mesh = (SCENARIO.parent / next(o["uri"] for o in scene["objects"] if o["hash"])).read_bytes()
+        address = f"/content/{hash_}?token={self.token(process)}"
+        status, headers, body = page.get(address)
+        self.assertEqual((status, body), (200, mesh))
+        self.assertIn("immutable", headers["cache-control"])
+        self.assertEqual(page.get(address, **{"If-None-Match": headers["etag"]})[0], 304)
+        status, headers, body = page.get(address, Range="bytes=4-11")
+        self.assertEqual((status, body, headers["content-range"]), (206, mesh[4:12], f"bytes 4-11/{len(mesh)}"))
+
+        # The crank.
+        browser.say(type="press", action="activity:use")
+        browser.wait("world", lambda world: world["activity"] == "use")
+        visitor = WebVisitor(browser, SCENARIO, "kiosk-1", self.environment)
+        self.addCleanup(visitor.stop)
+        grasp = next(move for move in visitor.visit("use") if move["kind"] == "reach")
+        before = browser.frame.bodies[visitor.objects[grasp["body"]]][1]
+        self.assertTrue(visitor.take(grasp["body"], [float(x) for x in grasp["grip"].split()]), browser.texts.get("pointer"))
+        self.assertEqual(browser.wait("pointer", lambda hand: hand["phase"] == "holding")["drag"], "turn")
+        turn = next(move for move in visitor.visit("use") if move["kind"] == "turn")
+        way, _ = visitor.circle(turn["joint"])
+        visitor.drag(lambda share: way(math.copysign(3 * share, float(turn["turns"]))), 3)
+        after = browser.frame.bodies[visitor.objects[grasp["body"]]][1]
+        alike = abs(sum(a * b for a, b in zip(before[3:], after[3:])))
+        self.assertLess(alike, 0.9, "the crank has turned by a radian or more")
+        visitor.xdo("mouseup", 1)
+        browser.wait("pointer", lambda hand: hand["phase"] in ("leaving", "resting"))
+
+        # It is one of the kiosk's displays.
+        browser.say(type="status", picturesPerS=30, pictureMsMedian=8, pictureMsP99=20, width=480, height=270, renderer="a test")
+        wait_until(lambda: self.displays().get("web-1", {}).get("renderer") == "a test", 20, "technicians see the browser")
+        changed = self.run_command("displays", "set", "--kiosk", "kiosk-1", "--display", "web-1", "large-text=on")
+        self.assertEqual(changed.returncode, 0, changed.stderr)
+        browser.wait("overlay", lambda overlay: overlay["largeText"])
+        self.assertEqual(process.stop(), 0, process.text())
+
+    def test_who_has_no_right_is_told_why(self):
+        process, page = self.gateway("--kiosk", "kiosk-1", "kiosk-2")
+        path = self.path(process)
+        self.refused(page, "/ws/kiosk/kiosk-1", 403)
+        self.refused(page, "/ws/kiosk/kiosk-1?token=wrong", 403)
+        self.refused(page, path.replace("kiosk-1", "kiosk-2"), 403)  # only its own kiosk
+        self.refused(page, path, 403, origin="http://elsewhere.example")
+        self.refused(page, path, 403, origin="")
+        self.refused(page, path, 400, protocol="")
+        for address, status in {"/api/kiosks": 401, "/api/me": 401, "/content/00": 403, "/exhibit/x/y.png": 403, "/nowhere": 404,
+                                "/app/../state/accounts.json": 404, "/app/%2e%2e/state/accounts.json": 404, "/app/.hidden.js": 404,
+                                "/app/index.htm": 403, "/%zz": 400, "/%00": 400, "/app/assets/main-1.js": 200, "/console": 200}.items():
+            answer, headers, text = page.get(address)
+            self.assertEqual(answer, status, f"{address}: {text}")
+            self.assertIn("default-src 'self'", headers["content-security-policy"])
+            self.assertEqual(headers["x-content-type-options"], "nosniff")
+        link = self.folder / "app/assets/away.js"
+        link.symlink_to(self.state / "accounts.json")
+        self.assertEqual(page.get("/app/assets/away.js")[0], 404, "no link out of the folder")
+        self.assertEqual(page.get("/app/" + "a" * 20000)[0], 431)
+        self.assertEqual(page.ask("POST", "/api/sign-in", "x" * 100_000)[0], 413)
+        self.assertEqual(page.ask("DELETE", "/console")[0], 405)
+
+        # What a socket must not say.
+        for message, kind in ((b"{", 1), (b'{"type":"nothing"}', 1), (b'{"type":"pointer","events":[{"kind":"press","x":1e999}]}', 1), (b"\x02\x01", 2)):
+            browser = Browser(page, path)
+            browser.say_bytes(message, kind)
+            self.assertTrue(browser.wait("bye")["remedy"])
+            wait_until(lambda: not browser.open, 10, "the socket is closed")
+        browser = Browser(page, path)
+        browser.say_bytes(b" " * 70_000, 1)
+        wait_until(lambda: not browser.open, 10, "a message over the limit ends the socket")
+        self.assertEqual(process.stop(), 0, process.text())
+
+    def test_operators_sign_in_and_steer_a_kiosk(self):
+        self.server(scenario=[ROOT / "scenarios/village/village.x3d", SCENARIO])
+        process, page = self.gateway("--records", self.folder / "records")
+        self.assertEqual(page.sign_in("operator", "a wrong password")[0], 401)
+        status, headers, _ = page.sign_in("operator", self.password)
+        self.assertEqual(status, 200)
+        for word in ("HttpOnly", "SameSite=Strict", "Path=/"):
+            self.assertIn(word, headers["set-cookie"])
+        self.assertEqual(self.state.stat().st_mode & 0o77, 0, "nobody else reads the state")
+        self.assertNotIn(self.password, (self.state / "accounts.json").read_text())
+
+        # A cookie alone does nothing.
+        opened = {"scenario": "archimedes-screw"}
+        self.assertEqual(page.post("/api/kiosks/kiosk-1/open", opened, **{"X-Mechane-CSRF": "wrong"})[0], 403)
+        self.assertEqual(page.post("/api/kiosks/kiosk-1/open", opened, Origin="http://elsewhere.example")[0], 403)
+        self.assertEqual(page.post("/api/kiosks/kiosk-1/open", opened, **{"Content-Type": "text/plain"})[0], 415)
+        self.assertEqual(page.post("/api/kiosks/nowhere/open", opened)[0], 404)
+
+        status, text = page.post("/api/kiosks/kiosk-1/open", opened)
+        self.assertEqual((status, json.loads(text)["scenario"]), (200, "archimedes-screw"), text)
+        self.assertEqual(page.post("/api/kiosks/kiosk-1/open", {"scenario": "no-such"})[0], 404)
+        (kiosk,) = json.loads(page.get("/api/kiosks")[2])["kiosks"]
+        self.assertEqual(kiosk["scenario"], "archimedes-screw")
+
+        # Its address lets a browser in, and so does the cookie.
+        token = kiosk["address"].split("token=")[1]
+        browser = Browser(Page(page.port), f"/ws/kiosk/kiosk-1?token={token}")
+        browser.wait("world", lambda world: world["scenario"] == "archimedes-screw")
+        Browser(page, "/ws/kiosk/kiosk-1").wait("hello")
+        status, text = page.post("/api/kiosks/kiosk-1/settings", {"display": "web-1", "settings": {"volume": "0.25"}})
+        self.assertEqual((status, json.loads(text)), (200, {"answers": [{"display": "web-1", "refusal": ""}]}))
+        browser.wait("settings", lambda settings: settings["volume"] == 0.25)
+        self.assertEqual(page.post("/api/kiosks/kiosk-1/settings", {"display": "", "settings": {"volume": "7"}})[0], 400)
+        self.assertEqual(json.loads(page.get("/api/server")[2])["server"]["scenarios"], ["village", "archimedes-screw"])
+        self.assertEqual(json.loads(page.get("/api/visits?days=1")[2])["days"], 1)
+
+        # Visitors and authors may not do this.
+        other = Page(page.port)
+        for role, seen in (("visitor", 403), ("author", 200)):
+            self.assertEqual(page.post("/api/accounts", {"user": "eva", "role": role, "password": "a long password"})[0], 200)
+            self.assertEqual(other.sign_in("eva", "a long password")[0], 200)
+            self.assertEqual(other.get("/api/kiosks")[0], seen)
+            self.assertEqual(other.post("/api/kiosks/kiosk-1/open", opened)[0], 403)
+            self.assertEqual(other.get("/api/audit")[0], 403)
+        self.assertEqual(page.post("/api/accounts/remove", {"user": "operator"})[0], 409)
+        self.assertEqual(page.post("/api/accounts/remove", {"user": "eva"})[0], 200)
+        self.assertEqual(other.get("/api/me")[0], 401, "who was removed is signed out")
+
+        entries = json.loads(page.get("/api/audit")[2])["entries"]
+        self.assertIn(("operator", "/api/kiosks/kiosk-1/open"), {(e["user"], e["action"]) for e in entries})
+        self.assertNotIn("a long password", (self.state / "audit.log").read_text())
+        self.assertEqual(page.post("/api/sign-out", {})[0], 200)
+        self.assertEqual(page.get("/api/me")[0], 401, "the old cookie opens nothing")
+        for _ in range(5):
+            page.sign_in("operator", "guess")
+        status, headers, _ = page.sign_in("operator", self.password)
+        self.assertEqual(status, 429)
+        self.assertTrue(int(headers["retry-after"]) >= 1)
+        self.assertEqual(process.stop(), 0, process.text())
+
+    @marked("alone", "not-address")
+    def test_fifty_browsers_one_of_which_reads_nothing(self):
+        self.server(records=False)
+        process, page = self.gateway()
+        path = self.path(process)
+        browsers = [Browser(page, path) for _ in range(49)]
+        slow = Browser(page, path, reads=False, receive_buffer=4096)
+        for browser in browsers:
+            browser.wait("scene")
+        before = [browser.frames for browser in browsers]
+        wait_until(lambda: all(b.frames - n > 60 for b, n in zip(browsers, before)), 30, "all who read get frames")
+        page.sign_in("operator", self.password)
+        skipped = lambda: json.loads(page.get("/api/server")[2])["gateway"]["framesSkipped"]
+        wait_until(lambda: skipped() > 30, 60, "what the slow one has not read is skipped")
+        slow.read()
+        wait_until(lambda: slow.frame and slow.frame.skipped > 30, 20, "it gets the newest frame, and how many it missed")
+        wait_until(lambda: slow.frame.sequence + 5 >= browsers[0].frame.sequence, 20, "and keeps up from then on")
+        for browser in [*browsers, slow]:
+            browser.close()
+        self.assertEqual(process.stop(), 0, process.text())
+
+    def test_a_thousand_connections_are_refused_politely(self):
+        process, page = self.gateway("--most-connections", "60", "--most-of-address", "50")
+        held, told = [], 0
+        for _ in range(1000):
+            one = socket.create_connection(("127.0.0.1", page.port), timeout=20)
+            if len(held) < 50:
+                held.append(one)  # says nothing
+                continue
+            with one:
+                answer = b""
+                while more := one.recv(4096):
+                    answer += more
+            self.assertTrue(answer.startswith(b"HTTP/1.1 503") or answer == b"", answer)
+            told += answer.startswith(b"HTTP/1.1 503")
+        self.assertGreater(told, 900, "are told why")
+        for one in held:
+            one.close()
+        wait_until(lambda: page.get("/console")[0] == 200, 20, "there is room again")
+        self.assertEqual(process.stop(), 0, process.text())
+
+    def test_beyond_this_machine_only_with_tls(self):
+        process, page = self.gateway("--listen", "0.0.0.0:0")
+        self.assertTrue(page.tls, process.text())
+        self.assertEqual((self.state / "tls-key.pem").stat().st_mode & 0o777, 0o600)
+        certificate = (self.state / "tls-cert.pem").read_bytes()
+        self.assertEqual(page.get("/console")[0], 200)
+        self.assertIn("Secure", page.sign_in("operator", self.password)[1]["set-cookie"])
+        self.assertEqual(process.stop(), 0, process.text())
+        process, page = self.gateway("--listen", "0.0.0.0:0", "--plain")
+        self.assertFalse(page.tls)
+        self.assertNotIn("operator's password", process.text(), "it is told once")
+        self.assertEqual(process.stop(), 0, process.text())
+        self.assertEqual((self.state / "tls-cert.pem").read_bytes(), certificate)
+
+    def test_an_address_that_nobody_uses_ends(self):
+        process, page = self.gateway("--token-idle", "0.05")
+        browser = Browser(page, self.path(process))
+        browser.wait("bye", limit_s=30)
+        wait_until(lambda: not browser.open, 10, "the socket is closed")
+        self.refused(page, self.path(process), 403)
+        self.assertEqual(process.stop(), 0, process.text())
+
+
+if __name__ == "__main__":
+    unittest.main()
