@@ -22,7 +22,7 @@ struct AuditEntry {
 class AuditLog {
  public:
   static constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20U;  ///< of a file; then the next one begins
-  static constexpr int kOldFiles = 9;                                    ///< audit.log.1 (the newest) .. audit.log.9
+  static constexpr int kOldFiles = 9;                                     ///< audit.log.1 (the newest) .. audit.log.9
 
   explicit AuditLog(std::filesystem::path folder) : file_(std::move(folder) / "audit.log") {}
   /// With the present time. Errors: io_failure.

@@ -15,7 +15,7 @@ namespace mechane::gateway {
 
 struct Backstage {
   std::uint32_t domain = 0;
-  Worker& slow;  ///< opens and ends what talks on the network: both can take a while
+  Worker& slow;                                     ///< opens and ends what talks on the network: both can take a while
   std::function<void(std::function<void()>)> post;  ///< runs a job on the loop's thread
   client::DisplaySeats& seats;
   KnownContent& content;

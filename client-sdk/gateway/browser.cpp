@@ -44,9 +44,7 @@ Browser::Browser(std::shared_ptr<KioskHub> hub, std::string token)
       settings_(settings_of_browser()),
       panel_(panel_settings_of(settings_)),
       writer_(settings_.language),
-      hand_([this] {
-        return std::make_unique<pointer::PointerLink>(hub_->kiosk(), hub_->backstage().domain);
-      }) {}
+      hand_([this] { return std::make_unique<pointer::PointerLink>(hub_->kiosk(), hub_->backstage().domain); }) {}
 
 Browser::~Browser() {
   hub_->backstage().end_slowly(hand_.take_away());
@@ -94,8 +92,7 @@ void Browser::text(std::string_view message) {
   const auto parsed = parse_browser_message(message);
   if (!parsed) {
     log::warning("a message of " + hub_->kiosk() + "/" + display_ + " was refused: " + parsed.error().to_string());
-    return part(parsed.error().where.empty() ? parsed.error().what
-                                             : parsed.error().what + ": " + parsed.error().where,
+    return part(parsed.error().where.empty() ? parsed.error().what : parsed.error().what + ": " + parsed.error().where,
                 "reload the page; if this comes again, gateway and page are of different versions");
   }
   if (!std::holds_alternative<StatusMessage>(*parsed)) hub_->backstage().tokens.use(token_, time_now());
@@ -116,8 +113,9 @@ void Browser::take(const PointerMessage& message) {
 }
 
 void Browser::take(const PressMessage& message) {
-  if (message.action.kind == picture::OverlayAction::Kind::activity && hub_->client() != nullptr)
-    (void)hub_->client()->start_activity(message.action.value);
+  const bool begins = message.action.kind == picture::OverlayAction::Kind::activity && hub_->status() != nullptr &&
+                      std::ranges::count(hub_->status()->activities, message.action.value) > 0;
+  if (begins) (void)hub_->client()->start_activity(message.action.value);
   panel_.press(message.action, time_now());
 }
 
@@ -196,9 +194,9 @@ void Browser::refresh(TimePoint now) {
   subtitles_.hear(hub_->status(), panel_.language(), now);
   const picture::OverlayContent content = words(now);
   const auto& presentation = hub_->presentation();
-  std::string text = overlay_text({content, panel_.language(),
-                                   presentation ? presentation->languages : std::vector<std::string>(),
-                                   subtitles_.at(now)});
+  std::string text =
+      overlay_text({content, panel_.language(), presentation ? presentation->languages : std::vector<std::string>(),
+                    subtitles_.at(now)});
   if (text == told_overlay_) return;
   told_overlay_ = text;
   say("overlay", std::move(text));

@@ -198,8 +198,7 @@ BrowserMessage status_of(Fields& message) {
 
 Expected<BrowserMessage> parse_browser_message(std::string_view text) {
   const MessageJson json = MessageJson::parse(text, nullptr, false);
-  if (!json.is_object())
-    return fail(ErrorCode::damaged, "a message is no JSON object", {}, "send what STREAM.md says");
+  if (!json.is_object()) return fail(ErrorCode::damaged, "a message is no JSON object", {}, "send what STREAM.md says");
   Fields message(json, "");
   const std::string type = message.text("type");
   if (message.wrong()) return wrong_field("type");
@@ -233,8 +232,8 @@ std::string action_text(const OverlayAction& action) {
 
 std::optional<OverlayAction> action_of(std::string_view text) {
   const std::size_t colon = std::min(text.find(':'), text.size());
-  const auto known = std::ranges::find(kActions, text.substr(0, colon),
-                                       &std::pair<OverlayAction::Kind, std::string_view>::second);
+  const auto known =
+      std::ranges::find(kActions, text.substr(0, colon), &std::pair<OverlayAction::Kind, std::string_view>::second);
   if (known == kActions.end()) return std::nullopt;
   return OverlayAction{known->first, std::string(text.substr(std::min(colon + 1, text.size())))};
 }

@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include "client-sdk/picture/named_thing.hpp"
 #include "client-sdk/picture/overlay_controls.hpp"
 #include "client-sdk/picture/sight.hpp"
 #include "client-sdk/pointer/pointer_event.hpp"
-#include "client-sdk/picture/named_thing.hpp"
 #include "server/base/error.hpp"
 
 namespace mechane::gateway {

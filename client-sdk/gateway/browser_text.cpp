@@ -109,7 +109,7 @@ TextJson pose_panel_json(const picture::OverlayPose& pose) {
                        {"to", {stroke.to.x(), stroke.to.y()}},
                        {"radius", stroke.radius},
                        {"part", stroke.part}});
-  return {{"text", pose.text}, {"more", pose.more}, {"again", pose.again},    {"held", pose.held},
+  return {{"text", pose.text}, {"more", pose.more},   {"again", pose.again}, {"held", pose.held},
           {"done", pose.done}, {"total", pose.total}, {"drawing", drawing}};
 }
 
@@ -257,10 +257,8 @@ std::string event_text(const client::WorldEvent& event) {
 }
 
 std::string settings_text(const client::DisplaySettings& settings) {
-  return written({{"type", "settings"},
-                  {"volume", settings.volume},
-                  {"mute", settings.muted},
-                  {"quality", settings.quality}});
+  return written(
+      {{"type", "settings"}, {"volume", settings.volume}, {"mute", settings.muted}, {"quality", settings.quality}});
 }
 
 std::string bye_text(const std::string& reason, const std::string& remedy) {

@@ -69,8 +69,8 @@ HttpAnswer FileStore::answer(const FileWanted& wanted) {
   }
   if (!*range) return answer;
   answer.status = 206;
-  answer.headers.emplace_back("Content-Range", fmt::format("bytes {}-{}/{}", (*range)->from,
-                                                           (*range)->from + (*range)->size - 1, answer.size));
+  answer.headers.emplace_back(
+      "Content-Range", fmt::format("bytes {}-{}/{}", (*range)->from, (*range)->from + (*range)->size - 1, answer.size));
   answer.from = (*range)->from;
   answer.size = (*range)->size;
   return answer;

@@ -14,10 +14,10 @@ namespace mechane::gateway {
 
 struct FileWanted {
   std::filesystem::path folder;
-  std::string path;              ///< within the folder
-  std::string hash{};            ///< what its content must be; empty: whatever it is
-  bool immutable = false;        ///< the same for ever under this address
-  std::string if_none_match{};   ///< the request's headers
+  std::string path;             ///< within the folder
+  std::string hash{};           ///< what its content must be; empty: whatever it is
+  bool immutable = false;       ///< the same for ever under this address
+  std::string if_none_match{};  ///< the request's headers
   std::string range{};
   std::string if_range{};
 };

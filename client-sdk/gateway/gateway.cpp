@@ -53,8 +53,7 @@ std::string origin_of(const GatewayOptions& options, std::uint16_t port) {
 
 /// On stdout, for people and for the program that started this one.
 void print_addresses(GatewaySite& site, const std::string& origin, const std::string& first_password) {
-  if (!first_password.empty())
-    fmt::print("operator's password, shown only now: operator {}\n", first_password);
+  if (!first_password.empty()) fmt::print("operator's password, shown only now: operator {}\n", first_password);
   for (const std::string& kiosk : site.options().kiosks)
     fmt::print("kiosk {}: {}\n", kiosk, site.address_of(kiosk, origin));
   fmt::print("console: {}/console\n", origin);

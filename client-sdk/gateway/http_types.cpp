@@ -32,6 +32,7 @@ HttpAnswer refusal(unsigned status, const std::string& what, const std::string& 
 HttpAnswer refusal(const Error& error) {
   unsigned status = 400;
   if (error.code == ErrorCode::not_found || error.code == ErrorCode::unknown_name) status = 404;
+  if (error.code == ErrorCode::conflict) status = 409;
   if (error.code == ErrorCode::too_large) status = 413;
   if (error.code == ErrorCode::busy) status = 503;
   if (error.code == ErrorCode::timed_out) status = 504;

@@ -23,8 +23,8 @@ namespace mechane::gateway {
 struct HttpRequest {
   enum class Method : std::uint8_t { get, head, post, other };
   Method method = Method::get;
-  std::string path;                          ///< decoded, begins with '/'
-  std::map<std::string, std::string> query;  ///< decoded
+  std::string path;                            ///< decoded, begins with '/'
+  std::map<std::string, std::string> query;    ///< decoded
   std::map<std::string, std::string> headers;  ///< names in lower case; of those that came twice, the first
   std::string body;
   std::string address;  ///< of the sender, in digits

@@ -8,8 +8,10 @@ void KnownContent::hear(const client::WorldStatus& status, std::span<const clien
     exhibits_[status.scenario] = status.scenario_folder;
   for (const client::SceneObject& object : objects) {
     if (object.mesh_hash.empty() || object.mesh_uri.empty()) continue;
+    // A mesh may lie beside the exhibit's folder: the manifest names it, and its hash is checked before it is sent.
+    const auto file = (std::filesystem::path(status.scenario_folder) / object.mesh_uri).lexically_normal();
     if (meshes_.size() < kMostMeshes || meshes_.contains(object.mesh_hash))
-      meshes_[object.mesh_hash] = {status.scenario_folder, object.mesh_uri};
+      meshes_[object.mesh_hash] = {file.parent_path(), file.filename().string()};
   }
 }
 

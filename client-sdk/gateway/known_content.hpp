@@ -21,7 +21,7 @@ class KnownContent {
 
   struct Mesh {
     std::filesystem::path folder;
-    std::string path;  ///< within it
+    std::string path;  ///< its name there
   };
   [[nodiscard]] std::optional<Mesh> mesh(const std::string& hash) const;
   /// The exhibit's folder, by the scenario's id.

@@ -212,8 +212,7 @@ void open_exhibit(GatewaySite& site, const std::string& kiosk, const std::string
     const std::string wanted = scenario.empty() ? server->scenarios.front() : scenario;
     if (std::ranges::count(server->scenarios, wanted) == 0)
       return refusal(404, "the server has no exhibit '" + wanted + "'", "GET /api/server lists them");
-    if (hub->status()->scenario == wanted)
-      return json_answer({{"world", hub->status()->world}, {"scenario", wanted}});
+    if (hub->status()->scenario == wanted) return json_answer({{"world", hub->status()->world}, {"scenario", wanted}});
     if (*sent == 0) *sent = hub->client()->open_exhibit(scenario);
     if (*sent != 0 && hub->refused(*sent))
       return refusal(409, "the server refused to open the exhibit", "see the server's log");
@@ -302,8 +301,8 @@ void put_account(GatewaySite& site, const ApiJson& json, const Done& done) {
     return done(refusal(400, "user, role and password are needed", "roles are visitor, author and operator"));
   if (password->size() < Accounts::kLeastPassword)
     return done(refusal(400, "the password is too short", "take ten letters or more"));
-  const bool given = site.on_passwords(
-      [&site, user = *user, role = *known, password = *password, done]() -> std::function<void()> {
+  const bool given =
+      site.on_passwords([&site, user = *user, role = *known, password = *password, done]() -> std::function<void()> {
         auto hash = hash_password(password);
         return [&site, user, role, done, hash] {
           if (!hash) return done(refusal(hash.error()));

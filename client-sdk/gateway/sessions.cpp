@@ -26,8 +26,7 @@ bool is_over(const Session& session, TimePoint now) {
 std::string Sessions::begin(const std::string& user, Role role, TimePoint now) {
   std::erase_if(sessions_, [now](const auto& entry) { return is_over(entry.second, now); });
   if (sessions_.size() >= kMost)
-    sessions_.erase(
-        std::ranges::min_element(sessions_, {}, [](const auto& entry) { return entry.second.used; }));
+    sessions_.erase(std::ranges::min_element(sessions_, {}, [](const auto& entry) { return entry.second.used; }));
   std::string cookie = random_secret(32);
   sessions_[cookie] = {user, role, random_secret(24), now, now};
   return cookie;

@@ -59,7 +59,7 @@ GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accou
       accounts_(std::move(accounts)),
       tokens_(options.token_idle),
       audit_(options.state),
-      backstage_{options.domain, slow_, [&server](std::function<void()> job) { server.post(std::move(job)); },
+      backstage_{options.domain, slow_,    [&server](std::function<void()> job) { server.post(std::move(job)); },
                  seats,          content_, tokens_} {}
 
 GatewaySite::~GatewaySite() {
@@ -78,8 +78,7 @@ bool GatewaySite::may_read(const HttpRequest& request) {
 
 void GatewaySite::answer(HttpRequest request, Done done) {
   if (request.method == Method::post) return answer_post(request, done);
-  if (request.method == Method::other)
-    return done(refusal(405, "this method is not served", "use GET, HEAD or POST"));
+  if (request.method == Method::other) return done(refusal(405, "this method is not served", "use GET, HEAD or POST"));
   answer_get(request, done);
 }
 
@@ -126,7 +125,8 @@ void GatewaySite::serve_file(const HttpRequest& request, FileWanted wanted, cons
 void GatewaySite::serve_content(const HttpRequest& request, const std::string& hash, const Done& done) {
   if (!may_read(request)) return done(no_way_in());
   const auto mesh = content_.mesh(hash);
-  if (!mesh) return done(refusal(404, "this gateway knows no mesh with this hash", "open the exhibit at a kiosk first"));
+  if (!mesh)
+    return done(refusal(404, "this gateway knows no mesh with this hash", "open the exhibit at a kiosk first"));
   serve_file(request, {mesh->folder, mesh->path, hash, true}, done);
 }
 

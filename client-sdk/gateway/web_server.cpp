@@ -19,6 +19,8 @@
 #include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 #include <fmt/format.h>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 
 #include "client-sdk/gateway/rate_limit.hpp"
 #include "client-sdk/gateway/request_path.hpp"
@@ -40,12 +42,13 @@ using SecureStream = beast::ssl_stream<beast::tcp_stream>;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr seconds kRequestWithin{30};   // from one answer to the end of the next request
-constexpr seconds kAnswerWithin{300};   // a large file over a slow network
-constexpr seconds kLingers{2};          // so that a client reads why it was refused
+constexpr seconds kRequestWithin{30};       // from one answer to the end of the next request
+constexpr seconds kAnswerWithin{300};       // a large file over a slow network
+constexpr seconds kLingers{2};              // so that a client reads why it was refused
 constexpr std::size_t kMostRefusals = 200;  // that linger at a time
 constexpr seconds kIdleSocket{30};
 constexpr std::size_t kMostTexts = 100;
+constexpr int kMostUnread_bytes = 16384;  // of frames, in the system's own buffer
 constexpr std::string_view kProtocol = "mechane.1";
 
 TimePoint now() {
@@ -231,7 +234,7 @@ class SocketConnection final : public Socket,
       socket_.text(true);
       return write(asio::buffer(*text_));
     }
-    if (frame_) {
+    if (frame_ && !lags()) {
       sent_ = std::exchange(frame_, nullptr);
       header_ = frame_header(*sent_, skipped_, now());
       socket_.binary(true);
@@ -241,6 +244,13 @@ class SocketConnection final : public Socket,
     writing_ = true;
     socket_.async_close(websocket::close_code::policy_error,
                         [self = this->shared_from_this()](error_code) { self->end(); });
+  }
+  /// Whether the browser has not taken much of what it was sent: the system would keep minutes of frames for it. The newest one waits for
+  /// the next look, when another frame comes.
+  [[nodiscard]] bool lags() {
+    int unread_bytes = 0;
+    const int fd = beast::get_lowest_layer(socket_).socket().native_handle();
+    return ::ioctl(fd, SIOCOUTQ, &unread_bytes) == 0 && unread_bytes > kMostUnread_bytes;
   }
   template <class Buffers>
   void write(const Buffers& buffers) {
@@ -276,12 +286,7 @@ HttpRequest::Method method_of(http::verb verb) {
 
 bool asks_for_protocol(std::string_view header) {
   while (!header.empty()) {
-    const std::size_t end = std::min(header.find(','), header.size());
-    std::string_view one = header.substr(0, end);
-    while (!one.empty() && one.front() == ' ')
-      one.remove_prefix(1);
-    if (one == kProtocol) return true;
-    header.remove_prefix(std::min(end + 1, header.size()));
+    if (next_part(header, ',') == kProtocol) return true;
   }
   return false;
 }
@@ -358,8 +363,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       return write(refusal(400, "this WebSocket speaks only 'mechane.1'", "ask for that subprotocol"), true);
     auto user = hall_->site->join(request);
     if (auto* refused = std::get_if<HttpAnswer>(&user)) return write(std::move(*refused), true);
-    auto socket = std::make_shared<SocketConnection<Stream>>(
-        std::move(stream_), std::move(*place_), std::get<std::shared_ptr<SocketUser>>(std::move(user)));
+    auto socket = std::make_shared<SocketConnection<Stream>>(std::move(stream_), std::move(*place_),
+                                                             std::get<std::shared_ptr<SocketUser>>(std::move(user)));
     place_.reset();
     socket->accept(parser_->release());
   }
@@ -375,8 +380,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     if (answer_.status != 304) {
       response_->set(http::field::content_type, answer_.content_type);
       response_->content_length(answer_.size);
-      if (request.method() != http::verb::head)
-        response_->body() = {answer_.body->data() + answer_.from, answer_.size};
+      if (request.method() != http::verb::head) response_->body() = {answer_.body->data() + answer_.from, answer_.size};
     }
     const std::string host(request[http::field::host]);
     for (const auto& [name, value] : security_headers(kSecure, host))
@@ -411,8 +415,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
 };
 
 std::string busy_text() {
-  const HttpAnswer answer =
-      refusal(503, "the gateway has as many connections as it may have", "try again in a minute");
+  const HttpAnswer answer = refusal(503, "the gateway has as many connections as it may have", "try again in a minute");
   return fmt::format(
       "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/json\r\nContent-Length: {}\r\nRetry-After: "
       "60\r\nConnection: close\r\n\r\n{}",

@@ -184,4 +184,5 @@ class Browser:
                           f"the gateway tells of '{kind}'")
 
     def close(self):
+        """As a page that is left without a word."""
         self.socket.close()

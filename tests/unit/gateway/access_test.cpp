@@ -82,7 +82,8 @@ TEST(SessionsInMemory, EndWhenIdleAndAfterADay) {
 TEST(SessionsInMemory, EndWithTheirUser) {
   ASSERT_TRUE(start_secrets());
   Sessions sessions;
-  const std::string one = sessions.begin("eva", Role::author, kBegan), other = sessions.begin("tom", Role::author, kBegan);
+  const std::string one = sessions.begin("eva", Role::author, kBegan),
+                    other = sessions.begin("tom", Role::author, kBegan);
   EXPECT_NE(sessions.find(one, kBegan)->csrf, sessions.find(other, kBegan)->csrf);
   sessions.end_of("eva");
   EXPECT_EQ(sessions.find(one, kBegan), nullptr);

@@ -93,8 +93,9 @@ TEST(BrowserMessages, WhatIsWrongIsNamed) {
 
 TEST(BrowserMessages, ActionsComeBackAsTheyWere) {
   using Action = picture::OverlayAction;
-  for (const Action& action : {Action{Action::Kind::home, ""}, Action{Action::Kind::answer, "a:b"}, Action{Action::Kind::skip, ""},
-                               Action{Action::Kind::close, ""}, Action{Action::Kind::activity, "use"}})
+  for (const Action& action :
+       {Action{Action::Kind::home, ""}, Action{Action::Kind::answer, "a:b"}, Action{Action::Kind::skip, ""},
+        Action{Action::Kind::close, ""}, Action{Action::Kind::activity, "use"}})
     EXPECT_EQ(action_of(action_text(action)), action);
 }
 
