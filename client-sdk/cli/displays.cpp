@@ -64,8 +64,7 @@ std::map<std::uint64_t, client::RequestAnswer> answers_to(std::uint64_t id, clie
 }
 
 /// Sends the request and prints each display's answer.
-int request(client::DisplayWatch& watch, const DisplaysOptions& options,
-            const client::DisplayRequest& wanted) {
+int request(client::DisplayWatch& watch, const DisplaysOptions& options, const client::DisplayRequest& wanted) {
   const auto displays = find(watch, options);
   if (!displays) return tell(displays.error(), 1);
   const auto id = watch.request(options.kiosk, options.display, wanted);

@@ -9,7 +9,8 @@
 
 namespace mechane::scene {
 
-/// How far the surface of each level may lie from the mesh, metres in the mesh's own frame.
+/// How far the surface of each level lies from the mesh at most, metres in the mesh's own frame. A mean over planes near
+/// each vertex says so: single places may lie twice as far.
 inline constexpr std::array<float, 6> kLevelErrors_m{0.0003F, 0.001F, 0.003F, 0.01F, 0.03F, 0.1F};
 
 /// Indices of each level's triangles.

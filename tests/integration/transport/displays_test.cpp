@@ -111,7 +111,8 @@ TEST_F(Displays, ARequestReachesTheDisplaysThatItNamesAndIsAnsweredInTheirStatus
 TEST_F(Displays, WhatALyingClientRequestsIsRefusedAndChangesNothing) {
   Desk wall("wall");
   ASSERT_TRUE(told({&wall}, "wall", [](const DisplayStatus&) { return true; }));
-  EXPECT_FALSE(watch_->request("kiosk-1", "", {.settings = {{"volume", "2"}}}).has_value()) << "the honest one asks first";
+  EXPECT_FALSE(watch_->request("kiosk-1", "", {.settings = {{"volume", "2"}}}).has_value())
+      << "the honest one asks first";
   auto participant = proto::Participant::create(kServerDomain);
   ASSERT_TRUE(participant.has_value());
   auto liar = proto::Writer<proto::DisplayRequest>::create(*participant, "");

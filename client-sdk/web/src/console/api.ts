@@ -1,0 +1,157 @@
+// The gateway's JSON API, as the console uses it. An error is a sentence: what happened, and what to do.
+
+export interface User {
+  user: string;
+  role: string;
+  csrf: string;
+}
+export interface DisplayInfo {
+  display: string;
+  host: string;
+  link: string;
+  scenario: string;
+  pictures: number;
+  width: number;
+  height: number;
+  missing: string[];
+  warning: string;
+  settings: Record<string, string>;
+}
+export interface KioskInfo {
+  kiosk: string;
+  scenario: string;
+  address: string;
+  displays: DisplayInfo[];
+}
+export interface ServerInfo {
+  reached: boolean;
+  server: string;
+  version: string;
+  worlds: number;
+  limit: number;
+  users: number;
+  overruns: number;
+  tickUsP99: number;
+  realtime: boolean;
+  recordsOk: boolean;
+  overload: string;
+  scenarios: string[];
+}
+
+type Fields = Record<string, unknown>;
+const fields = (v: unknown): Fields => (typeof v === 'object' && v !== null ? (v as Fields) : {});
+const list = (v: unknown): unknown[] => (Array.isArray(v) ? v : []);
+const text = (v: unknown): string => (typeof v === 'string' ? v : '');
+const number = (v: unknown): number => (typeof v === 'number' && Number.isFinite(v) ? v : 0);
+
+export class ApiError extends Error {
+  constructor(
+    readonly status: number,
+    what: string,
+    readonly remedy: string,
+  ) {
+    super(what);
+  }
+}
+
+export class Api {
+  user: User | null = null;
+
+  constructor(private readonly ask: typeof fetch = (...args) => fetch(...args)) {}
+
+  async whoAmI(): Promise<User | null> {
+    try {
+      this.user = (await this.json('GET', '/api/me')) as User;
+    } catch (error) {
+      if (!(error instanceof ApiError) || (error.status !== 401 && error.status !== 403)) throw error;
+      this.user = null;
+    }
+    return this.user;
+  }
+  async signIn(user: string, password: string): Promise<User> {
+    this.user = (await this.json('POST', '/api/sign-in', { user, password })) as User;
+    return this.user;
+  }
+  async signOut(): Promise<void> {
+    await this.json('POST', '/api/sign-out', {});
+    this.user = null;
+  }
+  async server(): Promise<ServerInfo> {
+    return serverOf(fields(await this.json('GET', '/api/server')).server);
+  }
+  async kiosks(): Promise<KioskInfo[]> {
+    return list(fields(await this.json('GET', '/api/kiosks')).kiosks).map(kioskOf);
+  }
+  async open(kiosk: string, scenario: string): Promise<void> {
+    await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/open`, { scenario });
+  }
+  async set(kiosk: string, display: string, settings: Record<string, string>): Promise<void> {
+    const said = fields(await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/settings`, { display, settings }));
+    const refused = list(said.answers).map(fields).find((answer) => text(answer.refusal) !== '');
+    if (refused) throw new ApiError(409, `${text(refused.display)}: ${text(refused.refusal)}.`, '');
+  }
+  async picture(kiosk: string, display: string): Promise<Blob> {
+    return (await this.send('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/picture`, { display })).blob();
+  }
+
+  private async json(method: string, path: string, body?: object): Promise<unknown> {
+    const answer = await this.send(method, path, body);
+    return answer.status === 204 ? {} : answer.json();
+  }
+  private async send(method: string, path: string, body?: object): Promise<Response> {
+    const headers: Record<string, string> = body ? { 'Content-Type': 'application/json' } : {};
+    if (this.user && method === 'POST') headers['X-Mechane-CSRF'] = this.user.csrf;
+    let answer: Response;
+    try {
+      answer = await this.ask(path, { method, headers, ...(body && { body: JSON.stringify(body) }) });
+    } catch {
+      throw new ApiError(0, 'The gateway does not answer.', 'Look whether it runs and whether this device has a network.');
+    }
+    if (answer.ok) return answer;
+    const said = fields(await answer.json().catch(() => ({})));
+    if (answer.status === 401) this.user = null;
+    throw new ApiError(answer.status, text(said.error) || `The gateway answered ${answer.status}.`, text(said.remedy));
+  }
+}
+
+export function serverOf(v: unknown): ServerInfo {
+  const s = fields(v);
+  return {
+    reached: text(s.server) !== '',
+    server: text(s.server),
+    version: text(s.version),
+    worlds: number(s.worlds),
+    limit: number(s.worldsLimit),
+    users: number(s.users),
+    overruns: number(s.overruns),
+    tickUsP99: number(fields(s.tickUs).p99),
+    realtime: s.realtime === true,
+    recordsOk: s.recordsOk !== false,
+    overload: text(s.overload),
+    scenarios: list(s.scenarios).map(text).filter((name) => name !== ''),
+  };
+}
+
+/** The client's link states by number. */
+const kLinks = ['searching', 'joined', 'refused', 'lost'];
+
+function displayOf(v: unknown): DisplayInfo {
+  const d = fields(v);
+  return {
+    display: text(d.display),
+    host: text(d.host),
+    link: kLinks[number(d.link)] ?? '',
+    scenario: text(d.scenario),
+    pictures: number(d.picturesPerS),
+    width: number(d.width),
+    height: number(d.height),
+    missing: list(d.missing).map(text),
+    warning: text(d.refusal) || text(d.lastWarning),
+    settings: Object.fromEntries(Object.entries(fields(d.settings)).map(([name, value]) => [name, text(value)])),
+  };
+}
+
+export function kioskOf(v: unknown): KioskInfo {
+  const k = fields(v);
+  return { kiosk: text(k.kiosk), scenario: text(k.scenario), address: text(k.address), displays: list(k.displays).map(displayOf) };
+}

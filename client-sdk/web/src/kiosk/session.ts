@@ -1,0 +1,314 @@
+// One kiosk in a page: what the gateway says, the picture of it, the hand. Without a document of its own: Kiosk.svelte shows it.
+import { Box3, Vector3 } from 'three';
+import { underFinger, placeToTake, type UnderFinger } from '../scene/picking';
+import { Picture, type InsetPlace } from '../scene/picture';
+import { SoundPlayer } from '../sound/player';
+import { soundSources } from '../sound/sources';
+import { Connection } from '../wire/connection';
+import { decodeFrame, type Frame } from '../wire/frame';
+import { FrameHistory, kDelay } from '../wire/history';
+import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type WorldEvent } from '../wire/messages';
+import { drawAid } from './aid';
+import { KeyHand } from './keys';
+import { PointerIn } from './pointer';
+
+const kReportEvery_ms = 1_000;
+const kHoverEvery_ms = 100;
+/** A name still belongs visibly to the pointed place within this share of the picture's height. */
+const kReadTogether = 0.14;
+/** A world that is joined but sends nothing is not there at the moment. */
+const kSilent_ms = 2_000;
+
+export interface Label {
+  text: string;
+  left: number;
+  top: number;
+}
+/** A thing that can be taken, for the keyboard and for screen readers. */
+export interface Thing {
+  object: number;
+  name: string;
+}
+export interface Shown {
+  state: KioskState;
+  online: boolean;
+  /** The world moves. */
+  live: boolean;
+  label: Label | null;
+  things: Thing[];
+  hovering: boolean;
+  inset: { kind: 'detail' | 'whole'; place: InsetPlace } | null;
+  /** Things are still being fetched. */
+  loading: boolean;
+}
+
+export class KioskSession {
+  readonly picture: Picture;
+  readonly sound = new SoundPlayer();
+  readonly keys: KeyHand;
+  private readonly connection: Connection;
+  private readonly pointer: PointerIn;
+  private readonly history = new FrameHistory();
+  private state: KioskState = kNothingKnown;
+  private online = false;
+  private frame: Frame | null = null;
+  private frameAt = -Infinity;
+  private malformed = 0;
+  private events: WorldEvent[] = [];
+  private hover: Vector3 | null = null;
+  private hoverObject: number | null = null;
+  private hoverAt = 0;
+  private focus: { object: number; place: { x: number; y: number } | null; at: number } | null = null;
+  private reportAt = 0;
+  private lastAt = 0;
+  private corner: InsetPlace | null = null;
+  private muted = false;
+  private ended = false;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly aid: HTMLCanvasElement,
+    surface: HTMLElement,
+    kiosk: string,
+    private readonly token: string,
+    private readonly changed: (shown: Shown) => void,
+  ) {
+    this.picture = new Picture(canvas, (hash) => this.address(`/content/${hash}`));
+    const page = {
+      under: (x: number, y: number): UnderFinger => underFinger(this.picture.pickScene(), x, y),
+      view: () => this.picture.view(),
+      size: (): [number, number] => [this.picture.width, this.picture.height],
+      send: (message: object) => this.connection.send(message),
+    };
+    this.pointer = new PointerIn(surface, page, () => this.sound.unlock());
+    this.keys = new KeyHand(this.pointer, {
+      pixelOf: (p) => this.picture.pixelOf(p),
+      height: () => this.picture.height,
+      pointer: () => this.state.pointer,
+    });
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    this.connection = new Connection(`${scheme}://${location.host}${this.address(`/ws/kiosk/${encodeURIComponent(kiosk)}`)}`, {
+      opened: () => this.goOn(true),
+      closed: () => this.goOn(false),
+      text: (json) => this.hearText(json),
+      bytes: (bytes) => this.hearFrame(bytes),
+    });
+    window.addEventListener('online', this.hurry);
+    document.addEventListener('visibilitychange', this.hurry);
+    requestAnimationFrame(this.draw);
+  }
+  end(): void {
+    this.ended = true;
+    this.connection.end();
+    this.pointer.end();
+    this.sound.silence();
+    window.removeEventListener('online', this.hurry);
+    document.removeEventListener('visibilitychange', this.hurry);
+  }
+
+  press(action: string): void {
+    this.sound.unlock();
+    this.connection.send({ type: 'press', action });
+  }
+  touch(): void {
+    this.sound.unlock();
+    this.connection.send({ type: 'touch' });
+  }
+  settings(settings: { largeText?: boolean; highContrast?: boolean }): void {
+    this.connection.send({ type: 'settings', ...settings });
+  }
+  resize(width: number, height: number, corner: InsetPlace | null): void {
+    this.picture.resize(width, height);
+    this.corner = corner;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    this.aid.width = width * ratio;
+    this.aid.height = height * ratio;
+    this.aid.getContext('2d')?.setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+  mute(muted: boolean): void {
+    this.muted = muted;
+    this.sound.volume = muted ? 0 : this.state.volume;
+    this.sound.unlock();
+  }
+  /** A thing has the keyboard's focus; null: none. */
+  setFocus(object: number | null): void {
+    this.focus = object === null ? null : { object, place: this.placeOf(object), at: 0 };
+  }
+  /** Space. */
+  toggleTake(): void {
+    this.sound.unlock();
+    this.keys.toggle(this.focus ? this.placeOf(this.focus.object) : null);
+  }
+  /** Where a held thing's place will be when it has turned by so much more, in pixels. */
+  ahead(turn: number): { x: number; y: number } | null {
+    return this.keys.along(turn);
+  }
+  /** What the page knows and draws. */
+  look(): object {
+    const { state, online, malformed, frame, picture } = this;
+    const complete = picture.world.complete;
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), ...picture.report() };
+  }
+  /** Where to take a thing, in pixels; null: it is not to be seen. */
+  placeOf(object: number): { x: number; y: number } | null {
+    return placeToTake(this.picture.pickScene(), object, this.axleOf(object));
+  }
+
+  private axleOf(object: number): { p: Vector3; d: Vector3 } | null {
+    const joint = this.state.presentation?.affordances.find(
+      (a) => a.kind === 'turns' && a.object === object && (a.agent === '' || this.state.world?.agents.includes(a.agent)),
+    );
+    if (!joint) return null;
+    const base = joint.base == null ? null : this.picture.world.placedOf(joint.base);
+    const X = this.picture.world.jointAt(joint.AJ, base);
+    return { p: new Vector3().setFromMatrixPosition(X), d: new Vector3(0, 0, 1).transformDirection(X) };
+  }
+
+  private address(path: string): string {
+    return this.token ? `${path}?token=${encodeURIComponent(this.token)}` : path;
+  }
+  private hurry = (): void => {
+    if (!document.hidden) this.connection.hurry();
+  };
+  private goOn(online: boolean): void {
+    this.online = online;
+    if (!online) {
+      this.state = { ...this.state, pointer: null };
+      this.keys.release();
+    }
+  }
+  private hearText(json: string): void {
+    const message = parseMessage(json);
+    if (!message) {
+      ++this.malformed;
+      return;
+    }
+    if (message.type === 'event') {
+      this.events.push(eventOf(message));
+      if (this.events.length > 200) this.events.shift();
+      return;
+    }
+    const before = this.state;
+    this.state = reduce(before, message);
+    if (before.world?.world !== this.state.world?.world) {
+      this.history.clear();
+      this.frame = null;
+    }
+    this.picture.set(this.state);
+    this.sound.volume = this.muted ? 0 : this.state.volume;
+  }
+  private hearFrame(bytes: ArrayBuffer): void {
+    const frame = decodeFrame(bytes);
+    if (!frame) {
+      ++this.malformed;
+      return;
+    }
+    const now = performance.now();
+    this.frameAt = now;
+    // A restarted server counts from the beginning.
+    if (frame.sequence < (this.history.newest()?.sequence ?? 0)) this.history.clear();
+    this.history.add(frame, now - 1000 * frame.age);
+  }
+
+  private draw = (now: number): void => {
+    if (this.ended) return;
+    requestAnimationFrame(this.draw);
+    const before = this.frame;
+    this.frame = this.history.at(now - kDelay) ?? this.frame;
+    this.keys.pass((now - this.lastAt) / 1000);
+    this.lastAt = now;
+    const phase = this.state.pointer?.phase;
+    const dragging = this.pointer.isDown || this.keys.holds || phase === 'holding' || phase === 'reaching';
+    this.picture.draw(this.frame, now, dragging, this.corner);
+    this.findHover(now);
+    this.drawAid();
+    this.hearSounds(before);
+    this.tell(now);
+  };
+
+  private findHover(now: number): void {
+    const at = this.pointer.hover;
+    if (!at || this.pointer.isDown) {
+      this.hover = null;
+      this.hoverObject = null;
+      return;
+    }
+    if (now - this.hoverAt < kHoverEvery_ms) return;
+    this.hoverAt = now;
+    const { seen, takeable } = underFinger(this.picture.pickScene(), at.x, at.y);
+    this.hover = takeable?.p ?? null;
+    this.hoverObject = (takeable ?? seen)?.object ?? null;
+  }
+  private drawAid(): void {
+    const context = this.aid.getContext('2d');
+    if (!context) return;
+    context.clearRect(0, 0, this.picture.width, this.picture.height);
+    if (!this.state.mayPoint || this.state.overlay?.panel) return;
+    const focus = this.focus && !this.keys.holds ? this.focus.place : null;
+    drawAid(context, {
+      pointer: this.state.pointer,
+      hover: this.hover,
+      focus,
+      finger: this.pointer.hover,
+      pixelOf: (p) => this.picture.pixelOf(p),
+      height: this.picture.height,
+    });
+  }
+  private hearSounds(before: Frame | null): void {
+    const { state, frame } = this;
+    if (frame && this.isLive()) this.sound.hear(this.picture.camera, soundSources(state, before, frame, this.events));
+    this.events = [];
+    const { world, overlay } = state;
+    if (!world || !overlay || !this.isLive()) return;
+    const file = world.audio[overlay.language];
+    if (!file) return;
+    const id = `${world.world} ${world.activity} ${world.step} ${overlay.language}`;
+    this.sound.say(id, this.address(`/exhibit/${encodeURIComponent(world.scenario)}/${file}`));
+  }
+  private isLive(): boolean {
+    return this.online && this.state.link === 'joined' && performance.now() - this.frameAt < kSilent_ms;
+  }
+  private things(): Thing[] {
+    const { takeable } = this.picture.pickScene();
+    const names = new Map(this.picture.world.namedThings(this.state.overlay?.language ?? 'en').map((t) => [t.object, t.name]));
+    return this.state.objects
+      .filter((o) => takeable(o.index))
+      .map((o) => ({ object: o.index, name: names.get(o.index) ?? '' }));
+  }
+
+  /** Where the name of a thing stands, above it. */
+  private label(): Label | null {
+    const near = this.picture.world.nearHand;
+    const object = this.hoverObject ?? near?.object;
+    const thing = this.picture.world.namedThings(this.state.overlay?.language ?? 'en').find((t) => t.object === object);
+    if (!thing || this.state.overlay?.panel) return null;
+    const middle = this.hoverObject !== null && this.pointer.hover ? this.pointer.hover : near && this.picture.pixelOf(near.p);
+    if (!middle) return null;
+    const reach = kReadTogether * this.picture.height;
+    let top = Infinity;
+    for (let corner = 0; corner < 8; ++corner) {
+      const { min, max } = thing.box as Box3;
+      const p = new Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).applyMatrix4(thing.X);
+      top = Math.min(top, this.picture.pixelOf(p)?.y ?? Infinity);
+    }
+    return { text: thing.name, left: middle.x, top: Math.max(top, middle.y - reach) };
+  }
+
+  private tell(now: number): void {
+    if (this.focus && now - this.focus.at > 500) this.focus = { ...this.focus, at: now, place: this.placeOf(this.focus.object) };
+    if (now - this.reportAt > kReportEvery_ms) {
+      this.reportAt = now;
+      this.connection.send({ type: 'status', ...this.picture.report() });
+    }
+    this.changed({
+      state: this.state,
+      online: this.online,
+      live: this.isLive(),
+      label: this.label(),
+      things: this.things(),
+      hovering: this.hover !== null,
+      inset: this.picture.inset,
+      loading: !this.picture.world.complete,
+    });
+  }
+}

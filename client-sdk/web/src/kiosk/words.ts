@@ -1,0 +1,68 @@
+// The page's own words. All others come from the gateway, in the visitor's language.
+
+interface Words {
+  waiting: string;
+  lost: string;
+  offline: string;
+  refused: string;
+  picture: string;
+  take: string;
+  closeUp: string;
+  wholeMachine: string;
+  sound: string;
+  largeText: string;
+  contrast: string;
+  step: string;
+  of: string;
+  goal: string;
+  question: string;
+  noWebGL: string;
+  pressAndHold: string;
+  spaceTakes: string;
+  busy: string;
+}
+
+const kEnglish: Words = {
+  waiting: 'The exhibit is getting ready …',
+  lost: 'One moment, the exhibit will go on …',
+  offline: 'One moment, the exhibit will be back …',
+  refused: 'This page may not show the exhibit.',
+  picture: 'The machine. Tab goes to what can be taken, Space takes it, arrows move it.',
+  take: 'Take',
+  closeUp: 'Close up',
+  wholeMachine: 'The whole machine',
+  sound: 'Sound',
+  largeText: 'Large text',
+  contrast: 'High contrast',
+  step: 'Step',
+  of: 'of',
+  goal: 'goal',
+  question: 'Question',
+  noWebGL: 'This browser cannot draw the machine: it has no WebGL 2.',
+  pressAndHold: 'Press and hold to take it',
+  spaceTakes: 'Space takes it; Tab goes to the next',
+  busy: 'All hands are busy at the moment',
+};
+const kGreek: Words = {
+  waiting: 'Το έκθεμα ετοιμάζεται …',
+  lost: 'Μια στιγμή, το έκθεμα συνεχίζει αμέσως …',
+  offline: 'Μια στιγμή, το έκθεμα επιστρέφει …',
+  refused: 'Η σελίδα αυτή δεν μπορεί να δείξει το έκθεμα.',
+  picture: 'Η μηχανή. Με το Tab πάτε σε ό,τι πιάνεται, με το διάστημα το πιάνετε, με τα βέλη το μετακινείτε.',
+  take: 'Πιάστε',
+  closeUp: 'Από κοντά',
+  wholeMachine: 'Ολόκληρη η μηχανή',
+  sound: 'Ήχος',
+  largeText: 'Μεγάλα γράμματα',
+  contrast: 'Έντονη αντίθεση',
+  step: 'Βήμα',
+  of: 'από',
+  goal: 'στόχος',
+  question: 'Ερώτηση',
+  noWebGL: 'Ο φυλλομετρητής αυτός δεν μπορεί να σχεδιάσει τη μηχανή: δεν έχει WebGL 2.',
+  pressAndHold: 'Πατήστε και κρατήστε για να το πιάσετε',
+  spaceTakes: 'Με το πλήκτρο διαστήματος το πιάνετε, με το Tab πάτε στο επόμενο',
+  busy: 'Όλα τα χέρια είναι απασχολημένα',
+};
+
+export const wordsIn = (language: string): Words => (language === 'el' ? kGreek : kEnglish);
