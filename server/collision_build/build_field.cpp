@@ -81,7 +81,11 @@ class Sampler {
 
   /// Unsigned.
   [[nodiscard]] double distance_m(const Vec3& blocks) const { return source_.skin.closest(place_O(blocks)).distance_m; }
-  [[nodiscard]] bool is_inside(const Vec3& blocks) const { return source_.solid.contains(place_O(blocks)); }
+  [[nodiscard]] bool is_inside(const Vec3& blocks) const {
+    const Vec3 p_O = place_O(blocks);
+    return source_.solid.contains(p_O) ||
+           (source_.solid.seam_gap_m() > 0 && source_.solid.is_in_crack(p_O, distance_m(blocks)));
+  }
 
   /// (steps + 1)^3 places, x fastest.
   [[nodiscard]] Samples sample(const Cell& cell, int steps = kSteps) const {
@@ -93,6 +97,9 @@ class Sampler {
   }
 
  private:
+  [[nodiscard]] bool is_inside(const Vec3& p_O, double distance_m) const {
+    return source_.solid.contains(p_O) || source_.solid.is_in_crack(p_O, distance_m);
+  }
   [[nodiscard]] Samples sample(const Cell& cell, int steps, int along, const Vec3& first_B) const {
     Samples samples;
     const double spacing_m = cell.edge * block_m() / steps;
@@ -117,7 +124,7 @@ class Sampler {
     sample.on_face = std::abs(n_O.dot(p_O - found.p)) >= kOnFace * found.distance_m;
     // If the surface lay between two places, it would be no farther from them, together, than they are from each other.
     const bool same_side = before != nullptr && std::abs(before->distance_m) + found.distance_m > kSameSide * spacing_m;
-    const bool inside = same_side ? before->distance_m < 0 : source_.solid.contains(p_O);
+    const bool inside = same_side ? before->distance_m < 0 : is_inside(p_O, found.distance_m);
     sample.distance_m = inside ? -found.distance_m : found.distance_m;
     sample.tolerance_m = tolerance_m(sample.distance_m);
     sample.excess_m = std::numeric_limits<double>::infinity();  // planes cull, not leaves

@@ -34,6 +34,9 @@ constexpr std::size_t kWorthOfWhole = 2;  // a brick may take this many times th
 constexpr std::size_t kBytesOfPart =
     480;  // beside its map; fixed, so that no member that is added changes what is built
 constexpr std::size_t kMostBytesUncut = 262'144;
+constexpr std::size_t kMostBytesUnited = 1U << 20;
+constexpr double kFinestSkin = 0.5;  // of the error's budget: what of a wall may reach into another part
+constexpr std::size_t kMostProbesUnited = 24'000;
 constexpr double kStrayUncut = 5e-4;            // of the witnesses, which are where maps err most
 constexpr std::size_t kMostPartsOfWhole = 48;   // for more parts, 64 blocks along the longest edge are too coarse
 constexpr std::size_t kAlwaysGranted = 12'288;  // bytes of one map
@@ -148,7 +151,9 @@ struct BuildInput {
   const geometry::MeshQuery& skin;
   const BuildConfig& config;
   ErrorBudget budget;
-  bool uncut = false;  // one map for all, in place of pieces
+  bool uncut = false;      // one map for all, in place of pieces
+  bool united = false;     // one field for all nodes; uncut is then true, too
+  bool may_stray = false;  // a few witnesses may be missed by it
 };
 
 bool wants_pieces(const BuildConfig& config, std::size_t nodes) {
@@ -178,6 +183,7 @@ Expected<std::vector<PartSource>> find_sources(std::span<const geometry::NamedMe
   std::vector<PartSource> sources;
   for (auto& some : found)
     std::move(some.begin(), some.end(), std::back_inserter(sources));
+  if (input.united) sources = {unite(input.nodes, sources)};
   if (auto ok = check_count(sources.size()); !ok) return tl::unexpected(ok.error());
   return sources;
 }
@@ -197,7 +203,9 @@ Expected<geometry::FitResult> fit_bound(const PartSource& source, const geometry
 }
 
 Expected<geometry::FitResult> fit_source(const PartSource& source, const BuildInput& input) {
-  auto fit = fit_bound(source, source.is_whole_node() ? &input.nodes[source.node] : nullptr, input);
+  const geometry::Mesh all = input.united ? merged(input.nodes) : geometry::Mesh{};
+  const geometry::Mesh& mesh = input.united ? all : input.nodes[source.node];
+  auto fit = fit_bound(source, source.is_whole_node() ? &mesh : nullptr, input);
   if (!fit) return at_part(fit.error(), source.name);
   return fit;
 }
@@ -229,6 +237,11 @@ MapChoice map_for(const BuiltPart& built, const BuildInput& input, std::size_t m
     candidates.brick_frame = &built.box;
   }
   if (config.fields) candidates.field_of = &input.skin_mesh;
+  if (input.united) {
+    candidates.at_most = kMostBytesUnited;
+    candidates.but_for = input.may_stray ? kStrayUncut : 0;
+    candidates.radial = candidates.brick = false;  // parts are better than those
+  }
   // A map that is not exact enough may grow as far as it must; one that only misses a thin layer may not.
   if (more_than > 0 && !may_grow)
     candidates.at_most =
@@ -250,10 +263,14 @@ Expected<BuiltPart> make_part(const PartSource& source, const BuildInput& input,
   const auto fit = fit_source(source, input);
   if (!fit) return tl::unexpected(fit.error());
   BuiltPart built;
-  built.frame = choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O, fit->X_OQ);
   built.box = frame_around(source.bound_points_O, fit->X_OQ);
-  built.probes = make_probes(input.solid, input.skin, source.places, input.budget,
-                             input.uncut ? source.places.size() : kProbesPerPart, input.config.seed + 2);
+  built.frame = input.united ? built.box
+                             : choose_frame(input.solid, source.node, source.places, source.cell, source.bound_points_O,
+                                            fit->X_OQ);
+  const std::size_t probes = input.united  ? std::min(kMostProbesUnited, kProbesPerPart * input.nodes.size())
+                             : input.uncut ? source.places.size()
+                                           : kProbesPerPart;
+  built.probes = make_probes(input.solid, input.skin, source.places, input.budget, probes, input.config.seed + 2);
   report.name = source.name;
   report.fit = fit->report;
   report.samples = source.samples_O.size();
@@ -404,29 +421,12 @@ std::size_t bytes_of(const collision::Part& part) {
   return part.map.bytes() + kBytesOfPart;
 }
 
-/// The whole object as one source.
-PartSource unite(std::span<const geometry::NamedMesh> nodes, std::span<const PartSource> sources,
-                 const BuildInput& input) {
-  PartSource whole;
-  whole.name = nodes.size() == 1 ? nodes[0].name : "whole";
-  for (const geometry::Mesh& node : input.nodes)
-    whole.bound_points_O.insert(whole.bound_points_O.end(), node.vertices.begin(), node.vertices.end());
-  for (const PartSource& source : sources) {
-    whole.places.insert(whole.places.end(), source.places.begin(), source.places.end());
-    whole.samples_O.insert(whole.samples_O.end(), source.samples_O.begin(), source.samples_O.end());
-    whole.spacing_m = std::max(whole.spacing_m, source.spacing_m);
-  }
-  return whole;
-}
-
 /// One brick in place of all parts, where it meets the budget and is not much larger: a query then asks once, not part after part. Nothing
 /// where the parts are better.
 std::optional<collision::Part> make_whole(const PartSource& whole, std::span<const collision::Part> parts,
                                           std::span<const BuiltPart> built, std::span<const Probe> witnesses,
                                           const BuildInput& input, PartReport& report) {
-  geometry::Mesh mesh;
-  for (const geometry::Mesh& node : input.nodes)
-    mesh.append(node);
+  const geometry::Mesh mesh = merged(input.nodes);
   const auto fit = fit_bound(whole, &mesh, input);
   if (!fit) return std::nullopt;
   std::vector<Probe> probes;
@@ -492,7 +492,7 @@ Expected<Draft> make_draft(std::span<const geometry::NamedMesh> nodes, const Bui
   draft.sources = std::move(*sources);
   const std::size_t count = draft.sources.size();
   const bool is_alone = input.uncut || (input.config.fields && count == 1);
-  draft.witnesses = make_witnesses(input, is_alone ? kWitnessesAlone : count);
+  draft.witnesses = make_witnesses(input, is_alone ? std::max(kWitnessesAlone, nodes.size()) : count);
   const std::span<const Probe> must = is_alone ? std::span(draft.witnesses) : std::span<const Probe>();
   std::vector<Expected<BuiltPart>> tried(count);
   draft.reports.resize(count);
@@ -510,6 +510,11 @@ Expected<Draft> make_draft(std::span<const geometry::NamedMesh> nodes, const Bui
   return draft;
 }
 
+/// Nothing that a hand feels belongs to a part: materials and surfaces are a body's.
+bool may_be_united(const BuildConfig& config, std::size_t nodes) {
+  return config.fields && config.parts != Parts::as_given && nodes > 1;
+}
+
 /// What was open or overlapped mostly ends with one map, however it is cut, and asking for winding numbers along the rays of pieces' maps
 /// would take nine tenths of the time. A closed mesh is cut first, for its pieces may be smaller.
 bool may_stay_uncut(const BuildConfig& config, std::span<const geometry::SolidMesh> solids) {
@@ -520,9 +525,13 @@ bool may_stay_uncut(const BuildConfig& config, std::span<const geometry::SolidMe
 
 Expected<Draft> make_best_draft(std::span<const geometry::NamedMesh> nodes, std::span<const geometry::SolidMesh> solids,
                                 const BuildInput& input, const PartDone& on_part) {
-  if (may_stay_uncut(input.config, solids)) {
+  const bool united = may_be_united(input.config, nodes.size());
+  if (united || may_stay_uncut(input.config, solids)) {
     BuildInput uncut = input;
     uncut.uncut = true;
+    uncut.united = united;
+    // On a large thing the witnesses lie less deep than what counts as missed by its size.
+    uncut.may_stray = kWitnessDepth * input.budget.missed_m <= input.config.miss_share * diagonal_of(input.nodes);
     auto draft = make_draft(nodes, uncut, on_part);
     if (draft && draft->reports.front().met) return draft;
   }
@@ -539,10 +548,12 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
   if (!solids) return tl::unexpected(solids.error());
   const std::vector<geometry::Mesh> meshes = meshes_of(*solids);
   const Solid solid(meshes, config.seam_gap_m);
-  const geometry::Mesh skin_mesh = air_side(meshes, solid);
-  const geometry::MeshQuery skin(skin_mesh);
   const double diagonal_m = diagonal_of(meshes);
-  const BuildInput input{meshes, solid, skin_mesh, skin, config, budget_of(config, diagonal_m)};
+  const ErrorBudget budget = budget_of(config, diagonal_m);
+  const geometry::Mesh skin_mesh =
+      config.fields ? cut_air_side(meshes, solid, kFinestSkin * budget.depth_p99_m) : air_side(meshes, solid);
+  const geometry::MeshQuery skin(skin_mesh);
+  const BuildInput input{meshes, solid, skin_mesh, skin, config, budget};
 
   auto draft = make_best_draft(nodes, *solids, input, on_part);
   if (!draft) return tl::unexpected(draft.error());
@@ -554,7 +565,8 @@ Expected<collision::Object> build_object(std::span<const geometry::NamedMesh> no
   std::vector<Probe> report_probes;
   if (report != nullptr) report_probes = make_report_probes(sources, input);
   if (may_be_whole(config, nodes.size(), object.parts.size())) {
-    PartSource whole = unite(nodes, sources, input);
+    PartSource whole = unite(meshes, sources);
+    if (nodes.size() == 1) whole.name = nodes[0].name;
     PartReport whole_report;
     if (auto part = make_whole(whole, object.parts, draft->built, draft->witnesses, input, whole_report)) {
       object.parts = {std::move(*part)};

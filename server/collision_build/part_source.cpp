@@ -1,9 +1,12 @@
 #include "server/collision_build/part_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "server/base/parallel.hpp"
+#include "server/geometry/mesh_check.hpp"
 #include "server/geometry/surface_samples.hpp"
 
 namespace mechane::collision_build {
@@ -74,6 +77,79 @@ void describe_piece(const geometry::Piece& piece, std::size_t node, const Solid&
   source.bound_points_O.insert(source.bound_points_O.end(), piece.cut_points.begin(), piece.cut_points.end());
 }
 
+using Corners = std::array<Vec3, 3>;
+
+Corners corners_of(const geometry::Mesh& mesh, std::size_t triangle) {
+  const auto& v = mesh.triangles[triangle];
+  return {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
+}
+
+/// At how many of four places of the triangle the node borders on air.
+int air_places(const Solid& solid, std::size_t node, const Corners& t, const Vec3& n) {
+  const Vec3 middle = (t[0] + t[1] + t[2]) / 3;
+  int places = solid.is_exposed(node, middle, n) ? 1 : 0;
+  for (const Vec3& corner : t)
+    places += solid.is_exposed(node, 0.2 * middle + 0.8 * corner, n) ? 1 : 0;
+  return places;
+}
+
+/// A node's triangles as far as they border on air. Those that do in part are halved, and what lies in other parts is left out.
+class AirSide {
+ public:
+  AirSide(const geometry::Mesh& mesh, std::size_t node, const Solid& solid, double finest_m)
+      : node_(node), solid_(solid), finest_m_(finest_m) {
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Corners t = corners_of(mesh, i);
+      n_ = solid.part(node).triangle_normal(i);
+      if (solid.is_alone(node, t)) {
+        kept_.push_back(t);
+      } else {
+        static_cast<void>(keep(t));
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Corners> kept() { return std::move(kept_); }
+
+ private:
+  static constexpr double kSure =
+      16;  // of finest_m: a triangle so small is as four of its places are, if they are alike
+
+  /// Says whether all of it is kept; then it is in one piece.
+  bool keep(const Corners& t) {
+    std::size_t from = 0;
+    const auto edge_m = [&](std::size_t i) { return (t[(i + 1) % 3] - t[i]).norm(); };
+    for (std::size_t i = 1; i < 3; ++i)
+      from = edge_m(i) > edge_m(from) ? i : from;
+    const double longest_m = edge_m(from);
+    if (longest_m <= kSure * finest_m_) {
+      const int places = air_places(solid_, node_, t, n_);
+      if (places == 0) return false;
+      if (places == 4 || longest_m <= finest_m_) {
+        kept_.push_back(t);
+        return true;
+      }
+    }
+    const std::size_t to = (from + 1) % 3;
+    Corners first = t;
+    Corners second = t;
+    first[to] = second[from] = 0.5 * (t[from] + t[to]);
+    const std::size_t before = kept_.size();
+    const bool all_of_first = keep(first);
+    const bool all = keep(second) && all_of_first;
+    if (all) {
+      kept_.resize(before);
+      kept_.push_back(t);
+    }
+    return all;
+  }
+
+  std::size_t node_;
+  const Solid& solid_;
+  double finest_m_;
+  Vec3 n_ = Vec3::Zero();
+  std::vector<Corners> kept_;
+};
+
 }  // namespace
 
 geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& solid) {
@@ -83,16 +159,25 @@ geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& soli
     skin.vertices.insert(skin.vertices.end(), nodes[i].vertices.begin(), nodes[i].vertices.end());
     for (std::uint32_t t = 0; t < nodes[i].triangles.size(); ++t) {
       const auto& v = nodes[i].triangles[t];
-      const Vec3 n = solid.part(i).triangle_normal(t);
-      const Vec3 middle = (nodes[i].vertices[v[0]] + nodes[i].vertices[v[1]] + nodes[i].vertices[v[2]]) / 3;
-      bool in_air = solid.is_exposed(i, middle, n);
-      for (int k = 0; k < 3 && !in_air; ++k) {
-        in_air = solid.is_exposed(i, 0.2 * middle + 0.8 * nodes[i].vertices[v[k]], n);
-      }
+      const bool in_air = air_places(solid, i, corners_of(nodes[i], t), solid.part(i).triangle_normal(t)) > 0;
       if (in_air) skin.triangles.push_back({v[0] + base, v[1] + base, v[2] + base});
     }
   }
   return skin;
+}
+
+geometry::Mesh cut_air_side(std::span<const geometry::Mesh> nodes, const Solid& solid, double finest_m) {
+  std::vector<std::vector<Corners>> kept(nodes.size());
+  for_each_index(nodes.size(), [&](std::size_t i) { kept[i] = AirSide(nodes[i], i, solid, finest_m).kept(); });
+  geometry::Mesh skin;
+  for (const std::vector<Corners>& some : kept) {
+    for (const Corners& t : some) {
+      const auto first = static_cast<std::uint32_t>(skin.vertices.size());
+      skin.vertices.insert(skin.vertices.end(), t.begin(), t.end());
+      skin.triangles.push_back({first, first + 1, first + 2});
+    }
+  }
+  return geometry::weld(skin);
 }
 
 std::vector<PartSource> sources_of_node(const std::string& name, const geometry::Mesh& mesh, std::size_t node,
@@ -122,6 +207,19 @@ std::vector<PartSource> sources_of_node(const std::string& name, const geometry:
     source.spacing_m = spacing;
   }
   return sources;
+}
+
+PartSource unite(std::span<const geometry::Mesh> nodes, std::span<const PartSource> sources) {
+  PartSource whole;
+  whole.name = "whole";
+  for (const geometry::Mesh& node : nodes)
+    whole.bound_points_O.insert(whole.bound_points_O.end(), node.vertices.begin(), node.vertices.end());
+  for (const PartSource& source : sources) {
+    whole.places.insert(whole.places.end(), source.places.begin(), source.places.end());
+    whole.samples_O.insert(whole.samples_O.end(), source.samples_O.begin(), source.samples_O.end());
+    whole.spacing_m = std::max(whole.spacing_m, source.spacing_m);
+  }
+  return whole;
 }
 
 }  // namespace mechane::collision_build

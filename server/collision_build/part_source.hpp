@@ -30,9 +30,15 @@ struct PartSource {
 /// Triangles of all nodes that border on air somewhere: the solid's true surface, for the exact distance.
 [[nodiscard]] geometry::Mesh air_side(std::span<const geometry::Mesh> nodes, const Solid& solid);
 
+/// The same without what of these triangles lies in other parts: they are cut there, into pieces with edges of `finest_m`. Uses all cores.
+[[nodiscard]] geometry::Mesh cut_air_side(std::span<const geometry::Mesh> nodes, const Solid& solid, double finest_m);
+
 /// A node as one part, or as the pieces of `cut`. Pieces without a surface of their own (deep in the solid) are left out.
 [[nodiscard]] std::vector<PartSource> sources_of_node(const std::string& name, const geometry::Mesh& mesh,
                                                       std::size_t node, const geometry::Decomposition& cut,
                                                       const Solid& solid, const BuildConfig& config);
+
+/// The whole object as one source, named "whole".
+[[nodiscard]] PartSource unite(std::span<const geometry::Mesh> nodes, std::span<const PartSource> sources);
 
 }  // namespace mechane::collision_build

@@ -7,13 +7,6 @@
 namespace mechane::collision_build {
 namespace {
 
-geometry::Mesh merged(std::span<const geometry::Mesh> parts) {
-  geometry::Mesh whole;
-  for (const geometry::Mesh& part : parts)
-    whole.append(part);
-  return whole;
-}
-
 /// A ray through the exact middle of a symmetric part runs along edges of its triangles and counts them twice. Moved aside by a
 /// millionth it meets faces.
 Vec3 aside(const Vec3& direction) {
@@ -21,6 +14,17 @@ Vec3 aside(const Vec3& direction) {
 }
 
 }  // namespace
+
+geometry::Mesh merged(std::span<const geometry::Mesh> parts) {
+  geometry::Mesh whole;
+  for (const geometry::Mesh& part : parts)
+    whole.append(part);
+  return whole;
+}
+
+double Solid::reach_m() const {
+  return 1.5 * seam_gap_m_ + 1e-6;
+}
 
 Solid::Solid(std::span<const geometry::Mesh> parts, double seam_gap_m)
     : seam_gap_m_(parts.size() > 1 ? seam_gap_m : 0), whole_(merged(parts)) {
@@ -41,12 +45,28 @@ bool Solid::contains(const Vec3& p) const {
 }
 
 bool Solid::is_exposed(std::size_t part, const Vec3& p, const Vec3& n) const {
-  // Half a gap more than the widest crack, so that a neighbour across it is reached.
-  const Vec3 before = p + (1.5 * seam_gap_m_ + 1e-6) * n;
+  const Vec3 before = p + reach_m() * n;
   for (std::size_t other = 0; other < parts_.size(); ++other) {
     if (other != part && boxes_[other].contains(before) && parts_[other].contains(before)) return false;
   }
   return true;
+}
+
+bool Solid::is_alone(std::size_t part, const std::array<Vec3, 3>& triangle) const {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& corner : triangle)
+    box.extend(corner);
+  const Vec3 reach = Vec3::Constant(reach_m());
+  const Eigen::AlignedBox3d near(box.min() - reach, box.max() + reach);
+  for (std::size_t other = 0; other < parts_.size(); ++other) {
+    if (other != part && boxes_[other].intersects(near)) return false;
+  }
+  return true;
+}
+
+bool Solid::is_in_crack(const Vec3& p, double air_side_m) const {
+  if (seam_gap_m_ <= 0) return false;
+  return whole_.closest(p, 0.5 * reach_m()).distance_m < air_side_m - 1e-6;
 }
 
 double Solid::walk(const Vec3& origin, const Vec3& direction, double limit) const {

@@ -35,7 +35,7 @@ std::string cache_name(const std::string& geometry, const collision_build::Build
       collision::kPartFileVersion, kObjectBuildVersion, geometry, config.max_error_share, config.max_error_m,
       config.miss_share, config.probe_depth_m, static_cast<int>(config.solid.kind), config.solid.thickness_m,
       static_cast<int>(config.parts), config.max_concavity, config.max_pieces, config.grid_cells, config.radial_maps,
-      config.bricks, config.fields ? " field" : "", static_cast<int>(config.bounds), config.map_resolution,
+      config.bricks, config.fields ? " united field" : "", static_cast<int>(config.bounds), config.map_resolution,
       config.sample_spacing_m, config.max_samples_per_part, config.seam_gap_m, config.seed);
   return content_hash(std::as_bytes(std::span(key))) + ".part";
 }

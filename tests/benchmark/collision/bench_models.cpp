@@ -30,9 +30,11 @@ struct Config {
   std::size_t checked = 160;
   std::size_t rounds = 3;
   bool fields = false;
+  std::string only;
 };
 
-constexpr double kLeastError_pct = 0.03;                  // of the diagonal, that a brick must keep to
+constexpr double kLeastError_pct = 0.03;  // of the diagonal, that a brick must keep to
+constexpr double kFinestSkin_m = 0.0002;  // of the surface that fields are held against: where walls meet
 constexpr const char* kApart = "archimedes-screw-INNER";  // its bytes are judged apart
 
 void report_build(const std::string& place, const Scene& scene, const Method& ours, Report& report) {
@@ -120,7 +122,6 @@ std::shared_ptr<const OurObjects> field_of(const SceneObject& object, const std:
                                            const Scene& scene, content::ObjectStore& store) {
   if (object.parts_O.empty()) return build_ours(scene, OurMaps::fields);
   collision_build::BuildConfig config;
-  config.parts = collision_build::Parts::as_given;
   config.fields = true;
   const Stopwatch watch;
   const auto found = store.load(file, object.name.substr(file.stem().string().size() + 1), config);
@@ -175,12 +176,13 @@ int main_of(const Config& config) {
   content::ObjectStore store;
   Worst worst;
   for (const std::filesystem::path& file : config.files) {
-    auto found = load_models(file);
+    auto found = load_models(file, config.fields ? kFinestSkin_m : 0);
     if (!found) {
       std::cerr << "bench_models: " << found.error().to_string() << "\n";
       return 2;
     }
     for (SceneObject& object : *found) {
+      if (object.name.find(config.only) == std::string::npos) continue;
       if (config.fields) {
         measure_field(config, file, std::move(object), store, worst, report);
       } else {
@@ -210,6 +212,7 @@ int main(int argc, char** argv) {
   app.add_option("--seed", config.seed, "other seeds draw other grasps");
   app.add_option("--steps", config.steps, "of all grasps of a thing")->check(CLI::Range(8, 1'000'000));
   app.add_flag("--fields", config.fields, "each thing's field against the brick alone; what has named parts is cached");
+  app.add_option("--only", config.only, "only things whose names contain this");
   app.add_option("--check", config.checked, "steps at which the answers are compared with the exact ones")
       ->check(CLI::Range(1, 100'000));
   CLI11_PARSE(app, argc, argv);

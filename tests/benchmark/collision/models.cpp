@@ -20,7 +20,7 @@ bool is_body(const content::ImportedScene& scene, std::uint32_t node) {
 }
 
 /// What `mechane fit` would be given, with our builder's own budget.
-SceneObject object_of(const std::string& name, std::vector<geometry::NamedMesh> parts, bool as_given) {
+SceneObject object_of(const std::string& name, std::vector<geometry::NamedMesh> parts, bool as_given, double finest_m) {
   const collision_build::BuildConfig ours;
   std::vector<geometry::Mesh> welded;
   geometry::Mesh whole;
@@ -30,7 +30,9 @@ SceneObject object_of(const std::string& name, std::vector<geometry::NamedMesh> 
   }
   SceneObject object = make_scene_object(name, std::move(whole), Pose{});
   if (parts.size() > 1) {
-    object.skin_O = collision_build::air_side(welded, collision_build::Solid(welded, ours.seam_gap_m));
+    const collision_build::Solid solid(welded, ours.seam_gap_m);
+    object.skin_O = finest_m > 0 ? collision_build::cut_air_side(welded, solid, finest_m)
+                                 : collision_build::air_side(welded, solid);
   }
   if (as_given) object.parts_O = std::move(parts);
   object.max_error_m = ours.max_error_m;
@@ -40,7 +42,7 @@ SceneObject object_of(const std::string& name, std::vector<geometry::NamedMesh> 
 
 }  // namespace
 
-Expected<std::vector<SceneObject>> load_models(const std::filesystem::path& file) {
+Expected<std::vector<SceneObject>> load_models(const std::filesystem::path& file, double finest_m) {
   const auto scene = content::import_mesh(file);
   if (!scene) return tl::unexpected(scene.error());
   const std::string stem = file.stem().string();
@@ -50,7 +52,7 @@ Expected<std::vector<SceneObject>> load_models(const std::filesystem::path& file
     if (!is_body(*scene, i)) continue;
     auto parts = content::collision_parts(*scene, node.name);
     if (!parts) return tl::unexpected(parts.error());
-    objects.push_back(object_of(stem + "-" + node.name, std::move(*parts), true));
+    objects.push_back(object_of(stem + "-" + node.name, std::move(*parts), true, finest_m));
   }
   if (!objects.empty()) return objects;
   auto parts = content::collision_parts(*scene, "");
@@ -61,7 +63,7 @@ Expected<std::vector<SceneObject>> load_models(const std::filesystem::path& file
   const double scale = kHeld_m / whole.bounds().diagonal().norm();
   for (Vec3& v : whole.vertices)
     v *= scale;
-  objects.push_back(object_of(stem, {{stem, std::move(whole)}}, false));
+  objects.push_back(object_of(stem, {{stem, std::move(whole)}}, false, finest_m));
   return objects;
 }
 

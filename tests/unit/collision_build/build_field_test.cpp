@@ -156,5 +156,36 @@ TEST(BuildField, TheBuilderKeepsAMeshInOneField) {
   EXPECT_EQ(report.error.missed + report.error.wrong, 0U);
 }
 
+/// A plank with a peg in it, and a block 0.5 mm beside it: neither the walls at the seams nor the crack can be felt.
+TEST(BuildField, PartsAreUnitedWithoutWallsAndCracksInside) {
+  const std::vector<geometry::NamedMesh> nodes = {{"plank", test::box({0.1, 0.02, 0.01})},
+                                                  {"peg", test::cylinder(0.008, 0.02, 24, {0, 0, 0.022})},
+                                                  {"block", test::box({0.03, 0.02, 0.01}, {0.1305, 0, 0})}};
+  BuildConfig config;
+  config.fields = true;
+  BuildReport report;
+  const auto object = build_object(nodes, config, &report);
+  ASSERT_TRUE(object) << object.error().to_string();
+  ASSERT_EQ(object->parts.size(), 1U);
+  const collision::Part& part = object->parts[0];
+  ASSERT_NE(part.map.field(), nullptr);
+  EXPECT_TRUE(report.parts[0].met);
+  EXPECT_EQ(report.error.missed + report.error.wrong, 0U);
+  const auto depth_m = [&](const Vec3& p_O) {
+    const collision::MapHit hit = part.map.evaluate((part.X_OQ.inverse() * p_O).cast<float>());
+    return hit.hit ? static_cast<double>(hit.depth_m) : 0;
+  };
+  EXPECT_GT(depth_m({0, 0, 0.006}), 0.006) << "4 mm from the peg's end and from the plank's top, 9 mm from air";
+  EXPECT_NEAR(depth_m({0.10025, 0, 0.006}), 0.004, 0.0008) << "in the crack";
+  EXPECT_NEAR(depth_m({0.05, 0.005, 0.008}), 0.002, 0.0008);
+  EXPECT_NEAR(depth_m({0, 0, 0.039}), 0.003, 0.0008);
+  EXPECT_EQ(depth_m({0.10025, 0, 0.011}), 0) << "above the crack";
+  EXPECT_EQ(depth_m({0.012, 0, 0.012}), 0) << "between plank and peg";
+  config.parts = Parts::as_given;
+  const auto given = build_object(nodes, config);
+  ASSERT_TRUE(given);
+  EXPECT_EQ(given->parts.size(), nodes.size()) << "an author may want them apart";
+}
+
 }  // namespace
 }  // namespace mechane::collision_build
