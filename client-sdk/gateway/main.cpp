@@ -1,4 +1,5 @@
 // mechane-gateway: kiosks and the operator's console for browsers.
+#include <filesystem>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -42,11 +43,17 @@ void add_options(CLI::App& app, Arguments& a) {
       ->capture_default_str();
 }
 
+/// The app in the build tree, or else as it is installed.
+std::filesystem::path usual_app() {
+  const std::filesystem::path beside = program_folder().parent_path() / "web";
+  return std::filesystem::exists(beside / "index.html") ? beside : program_folder().parent_path() / "share/mechane/web";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments a;
-  a.options.app = program_folder().parent_path() / "share/mechane/web";
+  a.options.app = usual_app();
   a.options.state = "out/gateway";
   CLI::App app{"Shows kiosks and the operator's console to web browsers.", "mechane gateway"};
   add_options(app, a);
