@@ -24,7 +24,7 @@ class AuditLog {
   static constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20U;  ///< of a file; then the next one begins
   static constexpr int kOldFiles = 9;                                     ///< audit.log.1 (the newest) .. audit.log.9
 
-  explicit AuditLog(std::filesystem::path folder) : file_(std::move(folder) / "audit.log") {}
+  explicit AuditLog(const std::filesystem::path& folder) : file_(folder / "audit.log") {}
   /// With the present time. Errors: io_failure.
   [[nodiscard]] Expected<void> add(std::string_view user, std::string_view address, std::string_view action,
                                    std::string_view detail);

@@ -18,7 +18,7 @@
 namespace mechane::gateway {
 namespace {
 
-constexpr long kDay_s = 24 * 3600;
+constexpr long kDay_s = 24L * 3600;
 constexpr long kValid_s = 800 * kDay_s;
 constexpr int kRenewedDays = 30;
 

@@ -195,7 +195,7 @@ HttpAnswer audit_answer(const std::filesystem::path& file) {
 
 // POST
 
-std::optional<std::string> text_of(const ApiJson& json, const char* key) {
+std::optional<std::string> stated(const ApiJson& json, const char* key) {
   if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return std::nullopt;
   return json[key].get<std::string>();
 }
@@ -245,7 +245,7 @@ void change_settings(GatewaySite& site, const std::string& kiosk, const ApiJson&
     if (!value.is_string()) return done(refusal(400, "a setting's value is no text: " + name, "write it in quotes"));
     settings.push_back({name, value.get<std::string>()});
   }
-  const std::string display = text_of(json, "display").value_or("");
+  const std::string display = stated(json, "display").value_or("");
   const std::size_t asked = meant_displays(site, kiosk, display).size();
   if (asked == 0) return done(refusal(404, "no such display is running", "GET /api/kiosks lists them"));
   const auto id = site.watch().request(kiosk, display, {.settings = settings});
@@ -295,7 +295,7 @@ void take_picture(GatewaySite& site, const std::string& kiosk, const std::string
 }
 
 void put_account(GatewaySite& site, const ApiJson& json, const Done& done) {
-  const auto user = text_of(json, "user"), role = text_of(json, "role"), password = text_of(json, "password");
+  const auto user = stated(json, "user"), role = stated(json, "role"), password = stated(json, "password");
   const auto known = role ? role_of(*role) : std::nullopt;
   if (!user || !known || !password)
     return done(refusal(400, "user, role and password are needed", "roles are visitor, author and operator"));
@@ -325,13 +325,13 @@ bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::strin
                    const Done& done) {
   if (!site.knows_kiosk(kiosk)) return done(unknown_kiosk(kiosk)), true;
   if (verb == "open") {
-    const auto scenario = text_of(json, "scenario");
+    const auto scenario = stated(json, "scenario");
     if (!scenario) return done(refusal(400, "no scenario is named", R"(send {"scenario":""} for home)")), true;
     return open_exhibit(site, kiosk, *scenario, done), true;
   }
   if (verb == "settings") return change_settings(site, kiosk, json, done), true;
   if (verb != "picture") return false;
-  return take_picture(site, kiosk, text_of(json, "display").value_or(""), done), true;
+  return take_picture(site, kiosk, stated(json, "display").value_or(""), done), true;
 }
 
 }  // namespace
@@ -367,7 +367,7 @@ bool answer_api_post(GatewaySite& site, const Session& session, const HttpReques
     return done(refusal(500, "the audit log cannot be written, so nothing was done", "see the gateway's log")), true;
   if (request.path == "/api/accounts") return put_account(site, json, done), true;
   if (request.path == "/api/accounts/remove") {
-    const std::string user = text_of(json, "user").value_or("");
+    const std::string user = stated(json, "user").value_or("");
     auto removed = site.accounts().remove(user);
     if (!removed) return done(refusal(removed.error())), true;
     site.sessions().end_of(user);

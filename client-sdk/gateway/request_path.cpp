@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <ranges>
 #include <utility>
 
 #include "server/base/utf8.hpp"
@@ -157,11 +156,13 @@ Expected<std::filesystem::path> file_within(const std::filesystem::path& folder,
                 "ask for a file of the folder, without '..' and hidden names");
   };
   std::filesystem::path file = folder;
-  for (const auto part : std::views::split(path, '/')) {
-    const std::string name(part.begin(), part.end());
-    if (name.empty() || name.front() == '.' || name.find('\\') != std::string::npos || name.size() > 255)
+  for (std::size_t from = 0; from <= path.size();) {
+    const std::size_t end = std::min(path.find('/', from), path.size());
+    const std::string_view name = path.substr(from, end - from);
+    if (name.empty() || name.front() == '.' || name.find('\\') != std::string_view::npos || name.size() > 255)
       return leaves();
     file /= name;
+    from = end + 1;
   }
   std::error_code error;
   const std::filesystem::path real_folder = std::filesystem::canonical(folder, error);

@@ -250,8 +250,7 @@ std::vector<std::string> GatewaySite::kiosks() {
   for (const client::DisplayStatus& display : watch_.displays())
     all.push_back(display.kiosk);
   std::ranges::sort(all);
-  const auto twice = std::ranges::unique(all);
-  all.erase(twice.begin(), twice.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

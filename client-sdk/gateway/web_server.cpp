@@ -148,11 +148,10 @@ class SocketConnection final : public Socket,
     request_ = std::move(request);
     beast::get_lowest_layer(socket_).expires_never();
     socket_.set_option(websocket::stream_base::timeout{seconds(10), kIdleSocket, true});
-    const bool secure = std::is_same_v<Stream, SecureStream>;
     const std::string host(request_[http::field::host]);
-    socket_.set_option(websocket::stream_base::decorator([secure, host](websocket::response_type& response) {
+    socket_.set_option(websocket::stream_base::decorator([host](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, std::string(kProtocol));
-      for (const auto& [name, value] : security_headers(secure, host))
+      for (const auto& [name, value] : security_headers(std::is_same_v<Stream, SecureStream>, host))
         response.set(name, value);
     }));
     socket_.read_message_max(place_.hall().options.message_bytes);
