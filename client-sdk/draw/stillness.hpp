@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -35,7 +34,9 @@ struct FireKey {
   float intensity = 0;
 
   explicit FireKey(const picture::ParticleEffect& fire);
-  friend auto operator<=>(const FireKey&, const FireKey&) = default;
+  friend bool operator<(const FireKey& a, const FireKey& b) {
+    return std::tie(a.p_W, a.size_m, a.intensity) < std::tie(b.p_W, b.size_m, b.intensity);
+  }
 };
 
 /// Key: of a thing that can be made of it.
