@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace mechane {
 namespace {
 
@@ -25,6 +27,8 @@ Told told_of(std::vector<const char*> arguments) {
   CLI::App* show = app.add_subcommand("show");
   show->add_option("visit", file)->required();
   show->add_flag("--json");
+  app.set_config("--settings");
+  app.allow_config_extras(CLI::config_extras_mode::error);
   testing::internal::CaptureStderr();
   const std::optional<int> status = parse_command_line(app, static_cast<int>(arguments.size()), arguments.data());
   return {testing::internal::GetCapturedStderr(), status.value_or(-1)};
@@ -43,6 +47,15 @@ TEST(CommandLine, NamesWhatIsWrongAndTheOptionThatIsNear) {
   EXPECT_EQ(told_of({"show"}).text, "mechane try show: visit is required; see mechane try show --help\n");
   EXPECT_NE(told_of({"--port", "10"}).text.find("mechane try: --port: Value 10 not in range"), std::string::npos);
   EXPECT_EQ(told_of({"--port", "10"}).status, 2);
+}
+
+TEST(CommandLine, NamesTheWordOfASettingsFileThatIsNoOption) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.write("try.toml", "port = 3\ndevize = \"virtual\"\n");
+  EXPECT_EQ(
+      told_of({"--settings", file.c_str()}).text,
+      "mechane try: the settings file has 'devize', which is not an option of this program; did you mean 'device'? "
+      "Write options without dashes, one a line, as in quality = \"cached\" (mechane try --help lists them)\n");
 }
 
 TEST(CommandLine, EndsAfterHelpAndGoesOnWithoutAFault) {
