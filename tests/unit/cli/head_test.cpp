@@ -36,7 +36,7 @@ class Museum final : public client::DisplayWatch {
   void wait(Duration) override {}
   [[nodiscard]] std::vector<client::DisplayStatus> displays() override { return all; }
   [[nodiscard]] Expected<std::uint64_t> request(const std::string&, const std::string&,
-                                                const std::vector<client::DisplaySetting>&, bool) override {
+                                                const client::DisplayRequest&) override {
     return fail(ErrorCode::not_supported, "nobody requests here");
   }
   void add(const char* kiosk, const char* display) {
