@@ -16,8 +16,8 @@ struct DisplaysOptions {
   std::vector<std::string> settings;  ///< NAME=VALUE
 };
 
-/// `verb`: empty, "set", "picture" or "restart". Returns the exit status: 0; 1 if the network cannot be joined, there is no such
-/// display, or one refused or did not answer; 2 for a setting that does not exist or is out of its range.
+/// `verb`: empty, "set", "picture" or "restart". Returns the exit status: 0; 1 if the network cannot be joined, no display has
+/// this name, or one refused or did not answer; 2 for a setting that does not exist or is out of its range.
 [[nodiscard]] int run_displays(const std::string& verb, const DisplaysOptions& options);
 
 }  // namespace mechane::cli

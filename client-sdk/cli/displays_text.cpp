@@ -22,10 +22,8 @@ constexpr double kLossWorthTelling = 0.005;
 constexpr double kSlowShare = 0.5;
 constexpr double kSlow_per_s = 20;
 
-constexpr std::array<std::string_view, 4> kLinks{"searching", "joined", "refused", "lost"};
-
 std::string_view link_name(const DisplayStatus& display) {
-  return kLinks[std::min<std::size_t>(display.link, kLinks.size() - 1)];
+  return client::link_name(static_cast<client::LinkState>(display.link));  // checked on receipt
 }
 
 /// Whether it is one of Mesa's software rasterisers.

@@ -484,6 +484,20 @@ Expected<void> check(const ClientConfig& config) {
 
 }  // namespace
 
+std::string_view link_name(LinkState state) {
+  switch (state) {
+    case LinkState::joined:
+      return "joined";
+    case LinkState::refused:
+      return "refused";
+    case LinkState::lost:
+      return "lost";
+    case LinkState::searching:
+      break;
+  }
+  return "searching";
+}
+
 Expected<std::unique_ptr<Client>> Client::connect(const ClientConfig& config) {
   if (auto good = check(config); !good) return tl::unexpected<Error>(good.error());
   auto participant = proto::Participant::create(config.domain);

@@ -88,7 +88,7 @@ void DisplayLoop::take_visitor(TimePoint now) {
 Expected<void> DisplayLoop::tend_kiosk(TimePoint now) {
   if (desk_.take_requests(visitor_.style())) {
     const client::DisplaySettings& requested = desk_.settings();
-    visitor_.change(panel_settings(requested));
+    visitor_.change(visit::panel_settings(requested));
     presenter_.soundtrack().set_levels(requested.volume, requested.muted);
     if (auto ok = presenter_.set_quality(requested.quality); !ok) return ok;
   }

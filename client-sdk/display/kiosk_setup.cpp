@@ -37,13 +37,6 @@ client::DisplaySettings settings_at_start(const DisplayOptions& options) {
   return settings;
 }
 
-visit::VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
-  return {settings.language,
-          visit::ask_when(settings.ask),
-          {settings.large_text ? picture::kLargeText : 1.0F, settings.high_contrast},
-          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
-}
-
 DisplayIdentity identity_of(const DisplayOptions& options, const draw::GlContext& context) {
   return {options.kiosk, options.name,         context.renderer_name(), options.offscreen,
           options.fps,   !options.out.empty(), !options.attract.empty()};

@@ -10,7 +10,6 @@
 namespace mechane::display {
 
 [[nodiscard]] client::DisplaySettings settings_at_start(const DisplayOptions& options);
-[[nodiscard]] visit::VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
 [[nodiscard]] DisplayIdentity identity_of(const DisplayOptions& options, const draw::GlContext& context);
 
 /// The address must be valid. `catalogue` and `worker` may be null.

@@ -7,7 +7,6 @@
 #include "client-sdk/display/kiosk_setup.hpp"
 #include "client-sdk/picture/picking.hpp"
 #include "client-sdk/pointer/pointer_aid.hpp"
-#include "server/log/log.hpp"
 
 namespace mechane::display {
 namespace {
@@ -25,7 +24,7 @@ Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std:
     : window_(window),
       news_(news),
       client_(news.client()),
-      panel_(panel_settings(settings_at_start(options))),
+      panel_(visit::panel_settings(settings_at_start(options))),
       attract_(std::move(attract)),
       forces_shown_(options.forces),
       language_(options.language) {
@@ -52,33 +51,10 @@ void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now
   const auto server = client_.server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
   panel_.update({news_.world().status(), news_.world().presentation(), news_.frame(), home}, now);
-  send_answers();
-  tell_language();
+  decisions_.send(panel_, client_, news_.world().presentation());
   if (panel_.language() == language_) return;
   language_ = panel_.language();
   news_.world().set_language(language_);
-}
-
-void Visitor::send_answers() {
-  const visit::VisitorRequests requests = panel_.take_requests();
-  if (requests.home) (void)client_.open_exhibit("");
-  for (const client::VisitAnswer& given : requests.answers) {
-    if (client_.answer(given) == 0)
-      log::warning("an answer to '" + given.question + "' was not sent: the display is in no world");
-  }
-}
-
-/// The visit's record says in which language the visitor was shown the exhibit: told once a world, and when it changes.
-void Visitor::tell_language() {
-  const auto& presentation = news_.world().presentation();
-  if (!presentation || presentation->languages.empty() || client_.state() != client::LinkState::joined) return;
-  const auto& known = presentation->languages;
-  const bool speaks_it = std::ranges::count(known, panel_.language()) > 0;
-  const std::string& shown = speaks_it ? panel_.language() : known.front();
-  if (told_presentation_ == presentation && told_language_ == shown) return;
-  if (client_.tell_language(shown) == 0) return;
-  told_presentation_ = presentation;
-  told_language_ = shown;
 }
 
 bool Visitor::invite(const client::DisplaySettings& settings, TimePoint now) {

@@ -13,7 +13,7 @@
 #include "client-sdk/display/news.hpp"
 #include "client-sdk/display/window.hpp"
 #include "client-sdk/pointer/pointer_input.hpp"
-#include "client-sdk/visit/visitor_panel.hpp"
+#include "client-sdk/visit/decision_sender.hpp"
 
 namespace mechane::display {
 
@@ -58,8 +58,6 @@ class Visitor {
   void click_object(picture::PixelPlace place, const LastPicture& last, const picture::RenderScene& scene);
   void take_pointer(const LastPicture& last, const SceneNow& scene, TimePoint now);
   [[nodiscard]] pointer::PointerScene under_pointer(const picture::RenderScene& scene, const LastPicture& last) const;
-  void send_answers();
-  void tell_language();
 
   Window* window_;
   News& news_;
@@ -70,9 +68,7 @@ class Visitor {
   bool invites_ = false;
   bool forces_shown_;
   std::string language_;
-  std::string told_language_;
-  std::shared_ptr<const client::WorldPresentation>
-      told_presentation_;  ///< of the world that was last told the language
+  visit::DecisionSender decisions_;
 };
 
 }  // namespace mechane::display

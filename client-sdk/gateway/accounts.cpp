@@ -45,7 +45,7 @@ std::optional<Role> role_of(std::string_view word) {
 
 Expected<std::map<std::string, Account>> parse_accounts(std::string_view text) {
   const auto damaged = [] {
-    return fail(ErrorCode::damaged, "this is no file of accounts", {},
+    return fail(ErrorCode::damaged, "this is not a file of accounts", {},
                 "put the file back from a copy, or move it away: a new operator is made at the next start");
   };
   const Json json = Json::parse(text, nullptr, false);
@@ -86,7 +86,7 @@ const Account* Accounts::find(const std::string& user) const {
 
 Expected<void> Accounts::put(const std::string& user, Account account) {
   if (!is_user(user))
-    return fail(ErrorCode::invalid_value, "this is no user's name", "user",
+    return fail(ErrorCode::invalid_value, "this cannot be a user's name", "user",
                 "take 1 to 31 small letters, digits, '-', '_' and '.'");
   auto changed = accounts_;
   changed[user] = std::move(account);
@@ -99,7 +99,7 @@ Expected<void> Accounts::put(const std::string& user, Account account) {
 
 Expected<void> Accounts::remove(const std::string& user) {
   if (find(user) == nullptr)
-    return fail(ErrorCode::not_found, "there is no such user", user, "GET /api/accounts lists them");
+    return fail(ErrorCode::not_found, "there is no user of this name", user, "GET /api/accounts lists them");
   auto changed = accounts_;
   changed.erase(user);
   if (std::ranges::none_of(changed, [](const auto& entry) { return entry.second.role == Role::manager; }))

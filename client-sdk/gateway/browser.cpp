@@ -22,13 +22,6 @@ TimePoint time_now() {
   return std::chrono::steady_clock::now();
 }
 
-visit::VisitorPanelSettings panel_settings_of(const client::DisplaySettings& settings) {
-  return {settings.language,
-          visit::ask_when(settings.ask),
-          {settings.large_text ? picture::kLargeText : 1.0F, settings.high_contrast},
-          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
-}
-
 client::DisplaySettings settings_of_browser() {
   client::DisplaySettings settings;
   settings.attract = false;  // a browser has no recorded visit to show
@@ -42,7 +35,7 @@ Browser::Browser(std::shared_ptr<KioskHub> hub, std::string token)
       token_(std::move(token)),
       display_(hub_->next_display()),
       settings_(settings_of_browser()),
-      panel_(panel_settings_of(settings_)),
+      panel_(visit::panel_settings(settings_)),
       writer_(settings_.language),
       hand_([this] { return std::make_unique<pointer::PointerLink>(hub_->kiosk(), hub_->backstage().domain); }) {}
 
@@ -146,26 +139,6 @@ void Browser::take(const StatusMessage& message) {
 
 void Browser::forget_world() {
   hand_.release();
-  told_presentation_.reset();
-}
-
-void Browser::send_what_was_decided() {
-  client::Client* const client = hub_->client();
-  const visit::VisitorRequests requests = panel_.take_requests();
-  if (client == nullptr) return;
-  if (requests.home) (void)client->open_exhibit("");
-  for (const client::VisitAnswer& answer : requests.answers)
-    if (client->answer(answer) == 0)
-      log::warning("an answer to '" + answer.question + "' was not sent: the kiosk is in no world");
-  const auto& presentation = hub_->presentation();
-  if (!presentation || presentation->languages.empty() || hub_->link() != client::LinkState::joined) return;
-  const auto& known = presentation->languages;
-  const bool speaks_it = std::ranges::count(known, panel_.language()) > 0;
-  const std::string& shown = speaks_it ? panel_.language() : known.front();
-  if (told_presentation_ == presentation && told_language_ == shown) return;
-  if (client->tell_language(shown) == 0) return;
-  told_presentation_ = presentation;
-  told_language_ = shown;
 }
 
 picture::OverlayContent Browser::words(TimePoint now) {
@@ -187,10 +160,14 @@ picture::OverlayContent Browser::words(TimePoint now) {
 void Browser::refresh(TimePoint now) {
   if (!socket_) return;
   if (hub_->calibration().asks()) panel_.notice_visitor(now);
-  const auto server = hub_->client() == nullptr ? std::nullopt : hub_->client()->server_status();
+  client::Client* const client = hub_->client();
+  const auto server = client == nullptr ? std::nullopt : client->server_status();
   const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
   panel_.update({hub_->status(), hub_->presentation(), hub_->frame(), home}, now);
-  send_what_was_decided();
+  if (client != nullptr)
+    decisions_.send(panel_, *client, hub_->presentation());
+  else
+    (void)panel_.take_requests();  // there is nobody to send them to
   subtitles_.hear(hub_->status(), panel_.language(), now);
   const picture::OverlayContent content = words(now);
   const auto& presentation = hub_->presentation();
@@ -212,12 +189,18 @@ void Browser::follow(TimePoint now) {
   say("pointer", std::move(text));
 }
 
+/// As technicians have set them, and visitors after that.
+client::DisplaySettings Browser::shown_settings() const {
+  client::DisplaySettings shown = settings_;
+  shown.large_text = panel_.settings().style.text_scale > 1;
+  shown.high_contrast = panel_.settings().style.high_contrast;
+  return shown;
+}
+
 void Browser::answer_requests() {
   if (!seat_) return;
   for (const client::DisplayRequest& request : seat_->take_requests()) {
-    client::DisplaySettings wanted = settings_;
-    wanted.large_text = panel_.settings().style.text_scale > 1;
-    wanted.high_contrast = panel_.settings().style.high_contrast;
+    client::DisplaySettings wanted = shown_settings();
     client::RequestAnswer answer{request.id, "", ""};
     if (request.restart) {
       answer.refusal = "a browser cannot be started again from afar; reload its page";
@@ -229,7 +212,7 @@ void Browser::answer_requests() {
       answer.refusal = "a browser has no recorded visit to show";
     } else {
       settings_ = wanted;
-      panel_.change(panel_settings_of(settings_));
+      panel_.change(visit::panel_settings(settings_));
       say("settings", settings_text(settings_));
     }
     answers_.push_back(std::move(answer));
@@ -269,10 +252,7 @@ void Browser::report(TimePoint now) {
   out.renderer = status_.renderer.empty() ? "a browser" : status_.renderer;
   out.sound_problem = settings_.muted ? "muted" : "";
   out.showing = "world";
-  client::DisplaySettings told = settings_;
-  told.large_text = panel_.settings().style.text_scale > 1;
-  told.high_contrast = panel_.settings().style.high_contrast;
-  out.settings = client::settings_of(told);
+  out.settings = client::settings_of(shown_settings());
   out.answers = answers_;
   (void)seat_->report(out);
 }

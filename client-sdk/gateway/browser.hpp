@@ -8,9 +8,9 @@
 #include "client-sdk/gateway/browser_hand.hpp"
 #include "client-sdk/gateway/browser_message.hpp"
 #include "client-sdk/gateway/http_types.hpp"
+#include "client-sdk/visit/decision_sender.hpp"
 #include "client-sdk/visit/overlay_text.hpp"
 #include "client-sdk/visit/subtitles.hpp"
-#include "client-sdk/visit/visitor_panel.hpp"
 #include <mechane/client/displays.hpp>
 
 namespace mechane::gateway {
@@ -53,7 +53,7 @@ class Browser final : public SocketUser, public std::enable_shared_from_this<Bro
   void take(const StatusMessage& message);
   void sit_down();
   void answer_requests();
-  void send_what_was_decided();
+  [[nodiscard]] client::DisplaySettings shown_settings() const;
   [[nodiscard]] picture::OverlayContent words(TimePoint now);
   void say(std::string_view kind, std::string text);
 
@@ -68,8 +68,7 @@ class Browser final : public SocketUser, public std::enable_shared_from_this<Bro
   BrowserHand hand_;
   std::unique_ptr<client::DisplaySeat> seat_;  ///< null until the network has made it
   std::string told_overlay_, told_pointer_;    ///< the last texts of these kinds
-  std::string told_language_;
-  std::shared_ptr<const client::WorldPresentation> told_presentation_;  ///< of the world that was told it
+  visit::DecisionSender decisions_;
   StatusMessage status_;
   TimePoint status_came_, opened_, followed_;
   std::uint64_t pictures_ = 0;

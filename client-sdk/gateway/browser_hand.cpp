@@ -28,17 +28,11 @@ void BrowserHand::take_one(const PointerMessage::One& one, const picture::Sight&
   if (event.kind == PointerEvent::Kind::press)
     means_ = event.finger == pointer::kMouse ? pointer::PointerMeans::mouse : pointer::PointerMeans::fingers;
   const PointerView view = hand_ ? hand_->view() : PointerView{};
-  const bool holds = view.phase == PointerView::Phase::holding;
-  const pointer::HandState state{holds || view.phase == PointerView::Phase::reaching,
-                                 holds && view.drag == PointerView::Drag::carry, sight.picture};
-  for (const HandRequest& request : fingers_.take(event, state)) {
+  for (const HandRequest& request : fingers_.take(event, pointer::state_of(view, sight.picture))) {
     if (request.kind == HandRequest::Kind::take) {
       if (!press(one, request.place, sight, world)) fingers_.missed();
     } else if (hand_) {
-      if (request.kind == HandRequest::Kind::move) hand_->move(request.place);
-      if (request.kind == HandRequest::Kind::twist) hand_->turn(request.amount);
-      if (request.kind == HandRequest::Kind::deepen) hand_->deepen(request.amount);
-      if (request.kind == HandRequest::Kind::release) hand_->release();
+      pointer::fulfil(request, *hand_);
     }
   }
 }
@@ -58,7 +52,7 @@ bool BrowserHand::press(const PointerMessage::One& one, picture::PixelPlace plac
 
 void BrowserHand::pass(double dt_s) {
   for (const HandRequest& request : fingers_.pass(dt_s))
-    if (request.kind == HandRequest::Kind::release && hand_) hand_->release();
+    if (hand_) pointer::fulfil(request, *hand_);
 }
 
 void BrowserHand::release() {

@@ -198,7 +198,8 @@ BrowserMessage status_of(Fields& message) {
 
 Expected<BrowserMessage> parse_browser_message(std::string_view text) {
   const MessageJson json = MessageJson::parse(text, nullptr, false);
-  if (!json.is_object()) return fail(ErrorCode::damaged, "a message is no JSON object", {}, "send what STREAM.md says");
+  if (!json.is_object())
+    return fail(ErrorCode::damaged, "a message is not a JSON object", {}, "send what STREAM.md says");
   Fields message(json, "");
   const std::string type = message.text("type");
   if (message.wrong()) return wrong_field("type");
@@ -219,7 +220,7 @@ Expected<BrowserMessage> parse_browser_message(std::string_view text) {
   } else if (type == "status") {
     out = status_of(message);
   } else if (type != "touch") {
-    return fail(ErrorCode::unknown_name, "there is no message of this type", "type", "send what STREAM.md says");
+    return fail(ErrorCode::unknown_name, "no message has this type", "type", "send what STREAM.md says");
   }
   if (message.wrong()) return wrong_field(*message.wrong());
   return out;

@@ -32,12 +32,6 @@ TextJson button_json(const picture::OverlayButton& button) {
   return {{"action", action_text(button.action)}, {"text", button.text}};
 }
 
-std::string_view word_of(client::LinkState state) {
-  if (state == client::LinkState::joined) return "joined";
-  if (state == client::LinkState::refused) return "refused";
-  return state == client::LinkState::lost ? "lost" : "searching";
-}
-
 std::string_view word_of(client::Affordance::Kind kind) {
   using Kind = client::Affordance::Kind;
   if (kind == Kind::taken) return "taken";
@@ -139,7 +133,7 @@ std::string hello_text(const std::string& kiosk, const std::string& display) {
 }
 
 std::string link_text(client::LinkState state, const std::string& refusal) {
-  return written({{"type", "link"}, {"state", word_of(state)}, {"refusal", refusal}});
+  return written({{"type", "link"}, {"state", client::link_name(state)}, {"refusal", refusal}});
 }
 
 std::string world_text(const client::WorldStatus& status) {

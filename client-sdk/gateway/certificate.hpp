@@ -16,8 +16,8 @@ struct CertificateFiles {
 };
 
 /// `folder`/tls-cert.pem and tls-key.pem (only the owner can read the key). Where they are missing, or the certificate ends within a month,
-/// makes them: an elliptic key (P-256), signed by itself, for these names and addresses in digits, for 800 days, which is as long as browsers
-/// accept. Errors: io_failure.
+/// makes them: an elliptic key (P-256), signed by itself, for these names and addresses in digits, for 800 days, which is as long as
+/// browsers accept. Errors: io_failure.
 [[nodiscard]] Expected<CertificateFiles> own_certificate(const std::filesystem::path& folder,
                                                          const std::vector<std::string>& names,
                                                          const std::vector<std::string>& addresses);

@@ -177,7 +177,7 @@ void answer_visits(GatewaySite& site, const HttpRequest& request, const Done& do
     return done(refusal(404, "this gateway was started without records", "start it with --records FOLDER"));
   const std::string wanted = request.query_value("days");
   const bool digits = wanted.size() <= 4 && std::ranges::all_of(wanted, [](char c) { return c >= '0' && c <= '9'; });
-  if (!digits) return done(refusal(400, "days is no number of days", "write days=7"));
+  if (!digits) return done(refusal(400, "days must be a number", "write days=7"));
   const std::int64_t days = wanted.empty() ? 1 : std::stoi(wanted);
   site.on_disk([records = site.options().records, days] { return visits_answer(records, days); }, done);
 }
@@ -242,7 +242,8 @@ void change_settings(GatewaySite& site, const std::string& kiosk, const ApiJson&
   const bool listed = json.contains("settings") && json["settings"].is_object() && json["settings"].size() <= 20;
   if (!listed) return done(refusal(400, "there are no settings", R"(send {"settings":{"volume":"0.5"}})"));
   for (const auto& [name, value] : json["settings"].items()) {
-    if (!value.is_string()) return done(refusal(400, "a setting's value is no text: " + name, "write it in quotes"));
+    if (!value.is_string())
+      return done(refusal(400, "a setting's value must be a text: " + name, "write it in quotes"));
     settings.push_back({name, value.get<std::string>()});
   }
   const std::string display = stated(json, "display").value_or("");
@@ -265,7 +266,8 @@ void change_settings(GatewaySite& site, const std::string& kiosk, const ApiJson&
 HttpAnswer picture_file(const std::string& path) {
   FileStore once;
   const std::filesystem::path file(path);
-  if (content_type_of(file) != "image/png") return refusal(502, "the display's picture is no PNG file", "see its log");
+  if (content_type_of(file) != "image/png")
+    return refusal(502, "the display's picture is not a PNG file", "see its log");
   return once.answer({file.parent_path(), file.filename().string()});
 }
 
@@ -359,7 +361,7 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
 bool answer_api_post(GatewaySite& site, const Session& session, const HttpRequest& request, const Done& done) {
   if (session.role != Role::manager) return done(not_allowed("operator")), true;
   const ApiJson json = ApiJson::parse(request.body, nullptr, false);
-  if (!json.is_object()) return done(refusal(400, "this request is no JSON object", "send an object")), true;
+  if (!json.is_object()) return done(refusal(400, "this request is not a JSON object", "send an object")), true;
   ApiJson told = json;  // without secrets
   if (told.contains("password")) told["password"] = "...";
   const std::string detail = told.dump(-1, ' ', false, ApiJson::error_handler_t::replace).substr(0, 500);

@@ -5,7 +5,7 @@
 
 namespace mechane::gateway {
 
-/// False: there is no such address. On the loop's thread, as the site.
+/// False: nothing is at this address. On the loop's thread, as the site.
 [[nodiscard]] bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest& request,
                                   const Site::Done& done);
 /// The same of a POST, whose session, origin and CSRF header were checked.

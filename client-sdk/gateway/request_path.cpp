@@ -50,7 +50,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 tl::unexpected<Error> bad_target() {
-  return fail(ErrorCode::invalid_value, "this is no address of the gateway", {}, "check the address");
+  return fail(ErrorCode::invalid_value, "the gateway has no such address", {}, "check the address");
 }
 
 }  // namespace

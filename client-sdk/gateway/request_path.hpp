@@ -24,8 +24,8 @@ struct ByteRange {
   std::size_t from = 0;
   std::size_t size = 0;
 };
-/// Of "bytes=0-99", "bytes=100-", "bytes=-100" for a file of `whole` bytes (RFC 9110, 14.1.2). None: the header asks for several parts or is
-/// not understood, so that the whole file is the answer. Errors: too_large, where no byte of it exists.
+/// Of "bytes=0-99", "bytes=100-", "bytes=-100" for a file of `whole` bytes (RFC 9110, 14.1.2). None: the header asks for several parts or
+/// is not understood, so that the whole file is the answer. Errors: too_large, where no byte of it exists.
 [[nodiscard]] Expected<std::optional<ByteRange>> parse_range(std::string_view header, std::size_t whole);
 
 /// The next part of a list, without the blanks around it; `rest` begins after the separator.

@@ -31,7 +31,7 @@ Expected<std::string> hash_password(const std::string& password) {
   std::array<char, crypto_pwhash_STRBYTES> out{};
   if (crypto_pwhash_str_alg(out.data(), password.data(), password.size(), crypto_pwhash_OPSLIMIT_INTERACTIVE,
                             crypto_pwhash_MEMLIMIT_INTERACTIVE, crypto_pwhash_ALG_ARGON2ID13) != 0)
-    return fail(ErrorCode::failed_process, "there is no memory to hash a password", {}, "free 64 MiB");
+    return fail(ErrorCode::failed_process, "there is not enough memory to hash a password", {}, "free 64 MiB");
   return std::string(out.data());
 }
 

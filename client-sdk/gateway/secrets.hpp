@@ -19,7 +19,7 @@ namespace mechane::gateway {
 
 /// argon2id with its own salt and costs, as one line of text. Slow on purpose: about a tenth of a second and 64 MiB. Errors: no memory.
 [[nodiscard]] Expected<std::string> hash_password(const std::string& password);
-/// As slow. False for what is no such line.
+/// As slow. False for text that was not made by hash_password().
 [[nodiscard]] bool is_password(const std::string& hash, const std::string& password);
 
 }  // namespace mechane::gateway

@@ -8,7 +8,7 @@
 
 namespace mechane::gateway {
 
-/// `host`: the request's Host header, as the browser sent it; what is no host's name is left out.
+/// `host`: the request's Host header, as the browser sent it; what cannot be a host's name is left out.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host);
 
 /// Whether a request with this Origin comes from a page of this host: both from the browser. An empty origin: no.

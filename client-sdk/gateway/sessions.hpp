@@ -44,7 +44,8 @@ class Sessions {
 /// The Set-Cookie header. An empty value ends it.
 [[nodiscard]] std::string set_session_cookie(const std::string& value, bool secure);
 
-/// Slows down guessing: after five failures from one address or for one user, each waits twice as long as the one before, up to five minutes.
+/// Slows down guessing: after five failures from one address or for one user, each waits twice as long as the one before, up to
+/// five minutes.
 class SignInGuard {
  public:
   /// How long `name` has to wait before the next try; none: it may try.

@@ -143,7 +143,7 @@ void GatewaySite::answer_post(const HttpRequest& request, const Done& done) {
   if (!is_own_origin(request.header("origin"), request.header("host"), request.secure))
     return done(refusal(403, "this request comes from another page", "use the gateway's own pages"));
   if (!request.header("content-type").starts_with("application/json"))
-    return done(refusal(415, "this request is no JSON", "send application/json"));
+    return done(refusal(415, "this request is not JSON", "send application/json"));
   if (request.path == "/api/sign-in") return sign_in(request, done);
   const Session* session = session_of(request);
   if (session == nullptr) return done(not_signed_in());

@@ -328,7 +328,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       return write(refusal(413, "the request is too long", "send less than 64 KiB"), true);
     if (error == http::error::end_of_stream) return finish();
     if (error.category() == make_error_code(http::error::bad_target).category())
-      return write(refusal(400, "this is no HTTP request: " + error.message(), "use a web browser"), true);
+      return write(refusal(400, "this is not an HTTP request: " + error.message(), "use a web browser"), true);
     if (error) return;  // gone, or too slow
     if (!hall_->requests.take(place_->address(), now()))
       return write(refusal(429, "too many requests", "wait a few seconds"), true);
@@ -557,7 +557,7 @@ class WebServerImpl final : public WebServer {
 
 Expected<ListenAddress> parse_listen_address(const std::string& text) {
   const auto wrong = [&] {
-    return fail(ErrorCode::invalid_value, "'" + text + "' is no address to listen at", "--listen",
+    return fail(ErrorCode::invalid_value, "'" + text + "' is not an address to listen at", "--listen",
                 "write --listen 127.0.0.1:8480, or 0.0.0.0:8480 for all of this machine's networks");
   };
   const std::size_t colon = text.rfind(':');

@@ -70,7 +70,6 @@ void PointerInput::forget_world() {
 }
 
 void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& scene) {
-  using Phase = PointerView::Phase;
   if (event.kind == PointerEvent::Kind::press) {
     means_ = event.finger == kMouse ? PointerMeans::mouse : PointerMeans::fingers;
     if (event.finger != kMouse) {  // fingers do not hover
@@ -79,29 +78,24 @@ void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& s
     }
   }
   if (event.kind == PointerEvent::Kind::gone && std::exchange(by_keys_, false)) link_->release();
-  const PointerView view = link_->view();
-  const bool holds = view.phase == Phase::holding;
-  follow(fingers_.take(event, {(holds || view.phase == Phase::reaching) && !by_keys_,
-                               holds && view.drag == PointerView::Drag::carry, scene.picture}),
-         scene);
+  HandState hand = state_of(link_->view(), scene.picture);
+  hand.busy = hand.busy && !by_keys_;
+  follow(fingers_.take(event, hand), scene);
 }
 
 void PointerInput::follow(const std::vector<HandRequest>& requests, const PointerScene& scene) {
-  for (const HandRequest& request : requests) {
+  for (HandRequest request : requests) {
     if (request.kind == HandRequest::Kind::take) {
       if (!press(scene, request.place)) fingers_.missed();
-    } else if (by_keys_) {
       continue;
-    } else if (request.kind == HandRequest::Kind::move) {
-      const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, request.place);
-      if (seen) link_->move(seen->place);
-    } else if (request.kind == HandRequest::Kind::twist) {
-      link_->turn(request.amount);
-    } else if (request.kind == HandRequest::Kind::deepen) {
-      link_->deepen(request.amount);
-    } else {
-      link_->release();
     }
+    if (by_keys_) continue;
+    if (request.kind == HandRequest::Kind::move) {
+      const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, request.place);
+      if (!seen) continue;
+      request.place = seen->place;
+    }
+    fulfil(request, *link_);
   }
 }
 

@@ -39,6 +39,26 @@ class Hurry {
 
 }  // namespace
 
+HandState state_of(const PointerView& view, picture::PixelSize picture) {
+  const bool holds = view.phase == PointerView::Phase::holding;
+  return {holds || view.phase == PointerView::Phase::reaching, holds && view.drag == PointerView::Drag::carry, picture};
+}
+
+void fulfil(const HandRequest& request, PointerTouch& hand) {
+  switch (request.kind) {
+    case HandRequest::Kind::take:
+      return;
+    case HandRequest::Kind::move:
+      return hand.move(request.place);
+    case HandRequest::Kind::twist:
+      return hand.turn(request.amount);
+    case HandRequest::Kind::deepen:
+      return hand.deepen(request.amount);
+    case HandRequest::Kind::release:
+      return hand.release();
+  }
+}
+
 /// What the link's thread knows of the world.
 struct PointerLink::Sensed {
   client::Frame frame;

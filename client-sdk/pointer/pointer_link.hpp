@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "client-sdk/pointer/pointer_exchange.hpp"
+#include "client-sdk/pointer/pointer_fingers.hpp"
 #include <mechane/client/client.hpp>
 
 namespace mechane::pointer {
@@ -25,6 +26,12 @@ class PointerTouch {
   [[nodiscard]] virtual PointerView view() = 0;
   [[nodiscard]] virtual PointerLinkState state() = 0;
 };
+
+/// What fingers must know of the hand that they move.
+[[nodiscard]] HandState state_of(const PointerView& view, picture::PixelSize picture);
+/// Does what fingers ask of a hand, except `take`: only the caller knows what there is to take. The place of a `move` is
+/// in the eye's picture.
+void fulfil(const HandRequest& request, PointerTouch& hand);
 
 /// The session opens with the first press and ends half a minute after the last touch, so that a display that is only
 /// watched occupies no hand of the world. It takes the kiosk's last free hand; devices take the first ones. Between

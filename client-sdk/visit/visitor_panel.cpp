@@ -75,6 +75,13 @@ AskWhen ask_when(const std::string& name) {
   return name == "none" ? AskWhen::none : name == "both" ? AskWhen::both : AskWhen::after;
 }
 
+VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
+  return {settings.language,
+          ask_when(settings.ask),
+          {settings.large_text ? picture::kLargeText : 1.0F, settings.high_contrast},
+          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
+}
+
 VisitorPanel::VisitorPanel(VisitorPanelSettings settings)
     : settings_(std::move(settings)), language_(settings_.language) {}
 

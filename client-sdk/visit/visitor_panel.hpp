@@ -28,6 +28,9 @@ struct VisitorPanelSettings {
   Duration home_after{0};  ///< goes home after this time without a hand's motion or a click; 0: never
 };
 
+/// As a technician has set them for a display.
+[[nodiscard]] VisitorPanelSettings panel_settings(const client::DisplaySettings& settings);
+
 /// What is known now. Null: not known yet.
 struct VisitorNews {
   const client::WorldStatus* status = nullptr;

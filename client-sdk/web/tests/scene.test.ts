@@ -45,7 +45,8 @@ describe('a camera', () => {
   it('narrowed to a window shows just that window', () => {
     const usual = cameraAt({ name: '', pose: [0, 1, 4, 0, 0, 0, 1], fov: 0.8 }, box);
     const half = 0.5 * halfTan(usual, 1.5);
-    const seen = seenBox(narrowedTo(usual, 0.1, 0.05, half, 1.5, 3), new Box3().setFromCenterAndSize(new Vector3(0.3, 1.15, 1), new Vector3()));
+    const seen = seenBox(narrowedTo(usual, 0.1, 0.05, half, 1.5, 3), 
+      new Box3().setFromCenterAndSize(new Vector3(0.3, 1.15, 1), new Vector3()));
     expect(seen.min.x).toBeCloseTo(0, 5);
     expect(seen.min.y).toBeCloseTo(0, 5);
   });
@@ -134,7 +135,8 @@ describe('a pick', () => {
 
 describe('effects', () => {
   const effect = (more: Partial<Effect>): Effect => ({
-    name: 'e', kind: 'stream', object: null, node: '', p: [0, 2, 0], direction: [1, 0, 0], quantity: 0, full: 1, size: 0.05, speed: 0.5, ...more,
+    name: 'e', kind: 'stream', object: null, node: '', p: [0, 2, 0], direction: [1, 0, 0], quantity: 0, full: 1,
+    size: 0.05, speed: 0.5, ...more,
   });
   const world = { quantities: [{ name: 'q', unit: 'l/s' }] } as unknown as World;
   const frame = decodeFrame(frameBytes({ quantities: [0.5] }))!;

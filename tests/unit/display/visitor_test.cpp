@@ -438,7 +438,7 @@ TEST_F(VisitorTest, SettingsFromAfarAreApplied) {
   requested.high_contrast = true;
   requested.ask = "none";
   requested.home_after_s = 30;
-  visitor().change(panel_settings(requested));
+  visitor().change(visit::panel_settings(requested));
   picture(5);
   EXPECT_EQ(visitor().language(), "el") << "nobody is there";
   EXPECT_TRUE(visitor().style().high_contrast);
@@ -455,7 +455,7 @@ TEST_F(VisitorTest, ALanguageFromAfarWaitsForTheVisitorToGo) {
   picture(0);
   client::DisplaySettings requested;
   requested.language = "el";
-  visitor().change(panel_settings(requested));
+  visitor().change(visit::panel_settings(requested));
   picture(1);
   EXPECT_EQ(visitor().language(), "en");
   picture(91);

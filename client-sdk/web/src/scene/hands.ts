@@ -22,6 +22,7 @@ import { fingerTip, handDistance, kFlat, kPalmHalf_m, kPinching, kPointing, kSeg
 import { plain } from './materials';
 import type { WorkingHand } from './step_view';
 import { surfaceNet } from './surface_net';
+import { turnTriangles } from './models';
 
 const kCell_m = 0.0036;
 const kFinger_m = 0.015;
@@ -56,12 +57,7 @@ function skin(): BufferGeometry {
 /** A left hand is the right one's mirror image, whose triangles are turned round. */
 function turned(geometry: BufferGeometry): BufferGeometry {
   const out = geometry.clone();
-  const index = out.index!;
-  for (let i = 0; i + 2 < index.count; i += 3) {
-    const b = index.getX(i + 1);
-    index.setX(i + 1, index.getX(i + 2));
-    index.setX(i + 2, b);
-  }
+  turnTriangles(out);
   return out;
 }
 

@@ -1,5 +1,8 @@
 // Olives, cypresses and brush around a machine: client-sdk/scene/landscape.cpp.
-import { BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, DataTexture, Vector3 } from 'three';
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, DataTexture,
+  Vector3,
+} from 'three';
 import { ShortRandom } from './random';
 import { kToSun } from './shaders';
 import { plain } from './materials';

@@ -1,10 +1,13 @@
 // Mesh files by content: each is fetched once; a node of one becomes a few meshes, one for each material.
-import { Box3, BoxGeometry, BufferAttribute, BufferGeometry, type Material, Matrix4, Mesh, type MeshStandardMaterial, type Object3D } from 'three';
+import {
+  Box3, BoxGeometry, BufferAttribute, BufferGeometry, type Material, Matrix4, Mesh, type MeshStandardMaterial,
+  type Object3D,
+} from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import { plain } from './materials';
 
-const kPlaceholderHalf_m = 0.12;
+const kBoxHalf_m = 0.12;
 const kLandMaterial = 'earth';
 const kWater = 'WATER_';
 /** A file that did not come is asked for again. */
@@ -46,19 +49,23 @@ function plainGeometry(mesh: Mesh, X: Matrix4): BufferGeometry {
   out.setIndex(from.index ? from.index.clone() : [...Array(position.count).keys()]);
   if (!from.getAttribute('normal')) out.computeVertexNormals();
   out.applyMatrix4(X);
-  if (X.determinant() < 0) {
-    const index = out.index!;
-    for (let i = 0; i + 2 < index.count; i += 3) {
-      const b = index.getX(i + 1);
-      index.setX(i + 1, index.getX(i + 2));
-      index.setX(i + 2, b);
-    }
-  }
+  if (X.determinant() < 0) turnTriangles(out);
   return out;
 }
 
-export function placeholder(): Model {
-  const geometry = new BoxGeometry(2 * kPlaceholderHalf_m, 2 * kPlaceholderHalf_m, 2 * kPlaceholderHalf_m);
+/** Turns all triangles round: what was their back is their front. */
+export function turnTriangles(geometry: BufferGeometry): void {
+  const index = geometry.index!;
+  for (let i = 0; i + 2 < index.count; i += 3) {
+    const b = index.getX(i + 1);
+    index.setX(i + 1, index.getX(i + 2));
+    index.setX(i + 2, b);
+  }
+}
+
+/** Drawn in place of a model that cannot be. */
+function boxInPlace(): Model {
+  const geometry = new BoxGeometry(2 * kBoxHalf_m, 2 * kBoxHalf_m, 2 * kBoxHalf_m);
   geometry.computeBoundingBox();
   const part = { geometry, material: plain(0.62, 0.55, 0.44, 0.9), water: false, land: false };
   return { parts: [part], box: geometry.boundingBox!.clone(), missing: true };
@@ -70,7 +77,7 @@ function modelOf(file: ModelFile, node: string): Model {
   file.scene.traverse((o) => {
     if (!top && nameOf(o) === node) top = o;
   });
-  if (!top) return placeholder();
+  if (!top) return boxInPlace();
   const back = top.matrixWorld.clone().invert();
   const groups = new Map<string, { material: Material; water: boolean; geometries: BufferGeometry[] }>();
   top.traverse((o) => {
@@ -89,7 +96,7 @@ function modelOf(file: ModelFile, node: string): Model {
     model.box.union(geometry.boundingBox!);
     model.parts.push({ geometry, material, water, land: !water && material.name.startsWith(kLandMaterial) });
   }
-  return model.parts.length > 0 ? model : placeholder();
+  return model.parts.length > 0 ? model : boxInPlace();
 }
 
 export class ModelStore {
@@ -113,10 +120,10 @@ export class ModelStore {
   isComing(hash: string): boolean {
     return this.files.get(hash) === 'coming';
   }
-  /** Null while it is coming; a box where there is none. */
+  /** Null while it is coming; a box where it cannot be had. */
   model(hash: string, uri: string, node: string): Model | null {
     const file = this.file(hash);
-    if (!file) return this.isComing(hash) ? null : placeholder();
+    if (!file) return this.isComing(hash) ? null : boxInPlace();
     let model = file.models.get(node);
     if (!model) {
       model = modelOf(file, node);

@@ -1,5 +1,8 @@
 // Steam, smoke, fire, dust and drops: where each is depends on the world's time alone (client-sdk/draw/passes/particles.cpp).
-import { DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, BufferAttribute, ShaderMaterial, Vector3, CustomBlending, OneFactor, OneMinusSrcAlphaFactor } from 'three';
+import {
+  DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, BufferAttribute, ShaderMaterial, Vector3,
+  CustomBlending, OneFactor, OneMinusSrcAlphaFactor,
+} from 'three';
 import { breakupTime, flightTime, type ParticleKind, type ParticleSource, type Stream } from './effects';
 import { ShortRandom } from './random';
 import { kNoise, kSky, kSunLight, kToSun } from './shaders';

@@ -1,5 +1,8 @@
 // Draws the world on a canvas: the step's view, the close-up in a corner, a quality that the machine can afford.
-import { ACESFilmicToneMapping, PCFShadowMap, PerspectiveCamera, PMREMGenerator, Quaternion, Scene, Mesh, SphereGeometry, Vector3, WebGLRenderer } from 'three';
+import {
+  ACESFilmicToneMapping, PCFShadowMap, PerspectiveCamera, PMREMGenerator, Quaternion, Scene, Mesh, SphereGeometry,
+  Vector3, WebGLRenderer,
+} from 'three';
 import type { Frame } from '../wire/frame';
 import type { KioskState } from '../wire/messages';
 import { applyTo, type Camera } from './camera';
@@ -129,7 +132,8 @@ export class Picture {
   /** From pixels of the page to things. */
   pickScene(): PickScene {
     const agents = this.state?.world?.agents ?? [];
-    const takeable = (object: number): boolean => isTakeable(this.state?.presentation ?? null, agents, object, this.world.isMovable(object));
+    const takeable = (object: number): boolean =>
+      isTakeable(this.state?.presentation ?? null, agents, object, this.world.isMovable(object));
     return { targets: this.world.targets(), takeable, camera: this.camera, width: this.width, height: this.height };
   }
   pixelOf(p: Vector3): { x: number; y: number } | null {

@@ -65,7 +65,8 @@ function hemp(): MeshStandardMaterial {
   float strand = mod(floor(3.0 * lay), 3.0);
   float detail = 1.0 - smoothstep(0.30, 0.80, length(vec2(dFdx(lay), dFdy(lay))) * 3.0);
   float groove = mix(0.78, mix(0.30, 1.0, smoothstep(0.50, 0.24, abs(across))), detail);
-  float fibre = value_noise(vec2(across * 9.0 + strand * 17.0, vUv.y * 0.9)) * 0.6 + value_noise(vec2(across * 23.0 + strand * 31.0, vUv.y * 2.3)) * 0.4;
+  float fibre = value_noise(vec2(across * 9.0 + strand * 17.0, vUv.y * 0.9)) * 0.6
+    + value_noise(vec2(across * 23.0 + strand * 31.0, vUv.y * 2.3)) * 0.4;
   diffuseColor.rgb = mix(vec3(0.30, 0.205, 0.10), vec3(0.52, 0.385, 0.205), mix(0.5, fibre, detail)) * groove;`,
     );
   };

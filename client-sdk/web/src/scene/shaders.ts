@@ -45,7 +45,8 @@ vec3 with_clouds(vec3 sky, vec3 d) {
 export const kSeenSky = /* glsl */ `
 float hills(vec3 d, float scale, float height) {
   float a = atan(d.x, -d.z) * scale;
-  return height * (0.25 + 0.60 * value_noise(vec2(a, 1.7)) + 0.30 * value_noise(vec2(a * 2.7, 5.1)) + 0.10 * value_noise(vec2(a * 8.3, 9.4)));
+  return height * (0.25 + 0.60 * value_noise(vec2(a, 1.7)) + 0.30 * value_noise(vec2(a * 2.7, 5.1))
+    + 0.10 * value_noise(vec2(a * 8.3, 9.4)));
 }
 float trees(vec3 d) {
   float a = atan(d.x, -d.z);

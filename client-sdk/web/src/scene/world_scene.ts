@@ -298,7 +298,8 @@ export class WorldScene {
     let landing = this.ground ?? 0;
     const level = presentation.effects.find((e) => e.kind === 'level');
     if (level && this.waterHeight !== null) landing = this.waterHeight + (levelOf(presentation, frame, level.node) ?? 0);
-    const X = (object: number | null | undefined): Matrix4 => (object == null ? new Matrix4() : (this.placedOf(object)?.group.matrix ?? new Matrix4()));
+    const X = (object: number | null | undefined): Matrix4 =>
+      (object == null ? new Matrix4() : (this.placedOf(object)?.group.matrix ?? new Matrix4()));
     const { streams, particles } = effectsOf(presentation, world, frame, X, landing);
     this.streams.show(streams, time);
     const all: Particle[] = [];

@@ -331,7 +331,7 @@ function pointerOf(m: Fields): PointerView {
   };
 }
 
-/** A message as an object with a type; null: it is none. */
+/** A message as an object with a type; null: it is not one. */
 export function parseMessage(json: string): (Fields & { type: string }) | null {
   try {
     const value: unknown = JSON.parse(json);

@@ -8,8 +8,12 @@ export const kPhone = { width: 390, height: 780 };
 
 /** `more`: what playwright knows of a context. Errors of the page's own scripts are collected in `errors`. */
 export async function openBrowser(more = {}) {
-  const browser = await chromium.launch({ executablePath: process.env.MECHANE_CHROMIUM ?? '/usr/bin/chromium', headless: true, args: kFlags });
-  const context = await browser.newContext({ viewport: kTablet, hasTouch: true, ignoreHTTPSErrors: true, reducedMotion: 'reduce', ...more });
+  const browser = await chromium.launch({
+    executablePath: process.env.MECHANE_CHROMIUM ?? '/usr/bin/chromium', headless: true, args: kFlags,
+  });
+  const context = await browser.newContext({
+    viewport: kTablet, hasTouch: true, ignoreHTTPSErrors: true, reducedMotion: 'reduce', ...more,
+  });
   const page = await context.newPage();
   const errors = [];
   page.on('pageerror', (error) => errors.push(String(error)));
@@ -29,7 +33,8 @@ export async function until(page, what, wanted, limit_s = 30) {
     await new Promise((done) => setTimeout(done, 100));
   }
   const { state, ...rest } = seen ?? {};
-  throw new Error(`not within ${limit_s} s: ${what}; ${JSON.stringify({ ...rest, link: state?.link, step: state?.world?.step, pointer: state?.pointer })}`);
+  const told = { ...rest, link: state?.link, step: state?.world?.step, pointer: state?.pointer };
+  throw new Error(`not within ${limit_s} s: ${what}; ${JSON.stringify(told)}`);
 }
 
 /** One finger, by Chromium's own input: the page cannot tell it from a real one. */

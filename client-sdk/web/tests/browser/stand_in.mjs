@@ -9,7 +9,8 @@ const kModels = fileURLToPath(new URL('../../../../scenarios/models/', import.me
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
 const kStill = [0, 0, 0, 0, 0, 0, 1];
 /** As the gateway has it: what the page may not do there, it may not do here. */
-const kPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob: ws:; media-src 'self' blob:; worker-src 'self' blob:";
+const kPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob: ws:; " +
+  "media-src 'self' blob:; worker-src 'self' blob:";
 
 /** The nodes of a .glb file that are things, with where they stand. */
 function thingsOf(model) {
@@ -34,14 +35,17 @@ function frameBytes(things, sequence) {
 }
 
 const overlay = (more) => ({
-  type: 'overlay', language: 'en', languages: ['el', 'en'], title: 'The crane', caption: 'Turn the crank', subtitle: '', hint: '', note: '', goal: '',
-  notice: null, steps: { done: 1, total: 3 }, gauges: [{ label: 'Speed', value: '24', unit: 'turns/min', fraction: 0.4, end: '60', goal: 0.8 }],
+  type: 'overlay', language: 'en', languages: ['el', 'en'], title: 'The crane', caption: 'Turn the crank', subtitle: '', hint: '',
+  note: '', goal: '',
+  notice: null, steps: { done: 1, total: 3 },
+  gauges: [{ label: 'Speed', value: '24', unit: 'turns/min', fraction: 0.4, end: '60', goal: 0.8 }],
   buttons: [{ action: 'home', text: 'To the village' }], panel: null, pose: null, largeText: false, highContrast: false, ...more,
 });
 
 export const kQuestion = overlay({
   panel: { title: 'The crane', goal: '', text: 'What lifts the stone?', more: '', scale: false, low: '', high: '', asked: 0, questions: 2,
-    answers: [{ action: 'answer:rope', text: 'The rope' }, { action: 'answer:wind', text: 'The wind' }], leave: { action: 'skip', text: 'Skip' } },
+    answers: [{ action: 'answer:rope', text: 'The rope' }, { action: 'answer:wind', text: 'The wind' }],
+    leave: { action: 'skip', text: 'Skip' } },
 });
 
 /** The messages of a world in which one thing of a model can be taken. */
@@ -49,11 +53,15 @@ function worldOf(model, things, takeable) {
   return [
     { type: 'hello', protocol: 1, kiosk: 'k', display: 'web-1', mayPoint: true },
     { type: 'link', state: 'joined', refusal: '' },
-    { type: 'world', world: 'w', scenario: model, activity: 'use', step: 'turn', done: false, agents: ['A'], quantities: [], narration: {}, audio: {}, detail: '' },
-    { type: 'scene', objects: things.map((t, index) => ({ index, uri: `${model}.glb`, hash: model, node: t.name, parent: '', movable: true, title: { en: t.name }, ...t })) },
+    { type: 'world', world: 'w', scenario: model, activity: 'use', step: 'turn', done: false, agents: ['A'],
+      quantities: [], narration: {}, audio: {}, detail: '' },
+    { type: 'scene', objects: things.map((t, index) => ({
+      index, uri: `${model}.glb`, hash: model, node: t.name, parent: '', movable: true, title: { en: t.name }, ...t,
+    })) },
     { type: 'presentation', world: 'w', languages: ['en'], activities: [{ name: 'use' }], effects: [],
       views: [{ name: 'FRONT', pose: [0, 1.55, 3.4, 0, 0, 0, 1], fov: 0.9 }],
-      affordances: things.flatMap((t, object) => (t.name === takeable ? [{ kind: 'taken', agent: 'A', object, AJ: kStill, BJ: kStill }] : [])) },
+      affordances: things.flatMap((t, object) => (t.name === takeable
+        ? [{ kind: 'taken', agent: 'A', object, AJ: kStill, BJ: kStill }] : [])) },
     overlay({}),
   ];
 }
@@ -82,7 +90,8 @@ export class StandIn {
     await new Promise((done) => this.http.close(done));
   }
   say(message) {
-    for (const socket of this.sockets) socket.send(typeof message === 'object' && !Buffer.isBuffer(message) ? JSON.stringify(message) : message);
+    const sent = typeof message === 'object' && !Buffer.isBuffer(message) ? JSON.stringify(message) : message;
+    for (const socket of this.sockets) socket.send(sent);
   }
 
   meet(socket) {
@@ -100,7 +109,8 @@ export class StandIn {
     const { pathname } = new URL(request.url, 'http://stand-in');
     const content = /^\/content\/([\w-]+)$/.exec(pathname);
     if (content) this.fetched.push(content[1]);
-    const file = content ? join(kModels, `${content[1]}.glb`) : pathname.startsWith('/app/') ? join(this.app, pathname.slice(4)) : join(this.app, 'index.html');
+    const file = content ? join(kModels, `${content[1]}.glb`) : pathname.startsWith('/app/') ? join(this.app, pathname.slice(4))
+      : join(this.app, 'index.html');
     if (pathname.startsWith('/api/') || !existsSync(file)) {
       response.writeHead(pathname === '/api/me' ? 401 : 404, { 'content-type': 'application/json' });
       return response.end('{"error":"nobody is signed in","remedy":"sign in"}');

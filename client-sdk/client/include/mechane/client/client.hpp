@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "server/base/error.hpp"
 #include <mechane/client/displays.hpp>
@@ -39,6 +40,9 @@ enum class LinkState {
   refused,    ///< another session owns this hand: see refusal()
   lost,       ///< the server fell silent; joined again by itself when it is back
 };
+
+/// "searching", "joined", "refused" or "lost".
+[[nodiscard]] std::string_view link_name(LinkState state);
 
 /// Owns the DDS endpoints and one thread that keeps the link. The functions may be called from any thread, by one
 /// thread at a time; send(), newest_force() and newest_frame() never block and are meant for a 1 kHz loop (send()

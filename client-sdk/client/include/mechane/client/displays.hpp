@@ -100,7 +100,8 @@ struct DisplayStatus {
   std::vector<RequestAnswer> answers;    ///< to the last requests, newest last
 };
 
-/// A display that has no Client of its own, such as a browser behind a gateway: reports its status and takes requests. One thread at a time.
+/// A display that has no Client of its own, such as a browser behind a gateway: reports its status and takes requests. One
+/// thread at a time.
 class DisplaySeat {
  public:
   virtual ~DisplaySeat() = default;
