@@ -24,7 +24,7 @@ from text import clock
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out/test"
 JOBS = os.cpu_count() or 2
-FUZZ_SECONDS = 10
+FUZZ_SECONDS = 6
 FUZZ_INPUT_S = 10  # on one input, before it counts as a hang; a mesh is cut, fitted and mapped, under the sanitizers
 SLOW_INPUT_S = {"mesh": 90}
 
@@ -74,11 +74,11 @@ def begin_ahead(phases: list[Phase]) -> processes.Beside | None:
     return processes.Beside(["sh", "-c", " && ".join(commands)], OUT / "beside.log") if commands else None
 
 
-def _run_ctest(preset: str, log: Path, jobs: int, only: str = "", leave_out: str = "", named: str = "", times: int = 1) -> Tally:
+def _run_ctest(preset: str, log: Path, jobs: int, only: tuple[str, ...] = (), leave_out: str = "", named: str = "", times: int = 1) -> Tally:
     junit = log.with_suffix(".xml")
     junit.unlink(missing_ok=True)
     command = ["ctest", "--test-dir", f"build/{preset}", "-j", str(jobs), "--output-on-failure", "--no-tests=error", "--output-junit", str(junit)]
-    command += ["-L", only] if only else []
+    command += [word for label in only for word in ("-L", label)]
     command += ["-LE", leave_out] if leave_out else []
     command += ["-R", named] if named else []
     command += ["--repeat", f"until-fail:{times}"] if times > 1 else []
@@ -102,10 +102,10 @@ def without_real_time() -> list[str]:
     return ["prlimit", "--rtprio=0", *drop]
 
 
-def end_to_end(preset: str, at_once: int, leave_out: str = "") -> Phase:
-    """Tests of the programs. Those that draw count twice, some run alone: see tests/integration/CMakeLists.txt."""
+def end_to_end(preset: str, at_once: int, *only: str) -> Phase:
+    """Tests of the programs with all of these labels. Those that draw count twice, some run alone: see tests/integration/CMakeLists.txt."""
     def run(log: Path) -> Tally:
-        return _run_ctest(preset, log, at_once, only="integration", leave_out=leave_out)
+        return _run_ctest(preset, log, at_once, only=("integration", *only))
 
     return Phase(f"test {preset} end-to-end", run, preset)
 
@@ -124,17 +124,13 @@ def programs(preset: str, only: str = "", leave_out: str = "none", others: bool 
                 tally.add(run_program(program, log, environment))
             return tally
 
-        def those_with_a_lock() -> Tally:
-            """One after another, the other tests last: the first fits the exhibits' parts, which the rest find in the cache."""
-            tally = run_all([program for program in found if program.locks])
-            if others:
-                tally.add(_run_ctest(preset, log, 1, only="in-process", leave_out=f"program|{leave_out}"))
-            return tally
-
         alone = [program for program in found if "alone" in program.labels]
         tally = Tally()
         with ThreadPoolExecutor(max_workers=JOBS) as pool:
-            running = [pool.submit(those_with_a_lock)]
+            # One after another: the first fits the exhibits' parts, which the rest find in the cache.
+            running = [pool.submit(run_all, [program for program in found if program.locks])]
+            if others:
+                running.append(pool.submit(_run_ctest, preset, log, 1, only=("in-process",), leave_out=f"program|{leave_out}"))
             running += [pool.submit(run_all, [program]) for program in found if program not in alone and not program.locks]
             for future in running:
                 tally.add(future.result())
@@ -157,7 +153,7 @@ def repeated_programs(preset: str, rounds: int, seed: int, only: str) -> Phase:
 
 def repeated_end_to_end(preset: str, rounds: int, only: str) -> Phase:
     def run(log: Path) -> Tally:
-        return _run_ctest(preset, log, 2 * JOBS, only="integration", named=only, times=rounds)
+        return _run_ctest(preset, log, 2 * JOBS, only=("integration",), named=only, times=rounds)
 
     return Phase(f"test {preset} end-to-end, {rounds} times", run, preset)
 
@@ -213,10 +209,10 @@ def phases(quick: bool) -> list[Phase]:
         return [build("quick", "in_process_tests"), programs("quick", only="in-process", leave_out="slow", others=True)]
     return [
         build("release"), programs("release", others=True),
-        end_to_end("release", at_once=JOBS + 1),  # these tests wait much, but each has loops of 1 kHz
+        end_to_end("release", JOBS + 1),  # these tests wait much, but each has loops of 1 kHz
         build("asan-ubsan"), programs("asan-ubsan", leave_out="not-address"),
         # A sanitized server needs a core, and its client another.
-        end_to_end("asan-ubsan", at_once=max(1, JOBS // 2), leave_out="not-address"),
+        end_to_end("asan-ubsan", max(1, JOBS // 2), "address"),
         fuzz(),
         build("tsan", "threaded_tests"), programs("tsan", only="threads"),
         tidy(),

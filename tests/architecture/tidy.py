@@ -3,7 +3,7 @@
 
 Most of its time goes into third-party headers, so a build that compiles each room's sources as one (the sanitizers' do) is looked
 through several times faster, and several rooms together once more so: what belongs to one room lies in that room's namespace. A room that was clean is not looked at again until one of its files, a header of ours that they read, its
-command or the configuration changes: .cache/tidy/ remembers by content.
+command or the configuration changes: the user's cache remembers by content, so that another clone profits as from the compiler's.
 """
 
 import argparse
@@ -20,7 +20,8 @@ from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-CLEAN = ROOT / ".cache/tidy"
+CLEAN = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "mechane/tidy"
+PACKAGES = Path("/var/lib/dpkg/status")
 TIDY = "clang-tidy-14"
 GROUP = 8  # rooms at most that are looked through together
 # GCC's warnings are errors already; a second compiler's opinion is not asked. The static analyser looks at no source that another one
@@ -41,7 +42,7 @@ def _content(path: Path) -> bytes:
 
 @cache
 def _includes(path: Path, folders: tuple[Path, ...]) -> tuple[Path, ...]:
-    """The headers of ours, or made by our build, that a file names. Those of the system change with their packages."""
+    """The headers of ours, or made by our build, that a file names. Those of the system change with their packages (PACKAGES)."""
     found = []
     for name in _INCLUDE.findall(_content(path)):
         for folder in (path.parent, *folders):
@@ -73,9 +74,10 @@ def _own_folders(command: str, directory: Path) -> tuple[Path, ...]:
 
 def _key(entry: dict, configuration: bytes) -> str:
     source, directory = Path(entry["file"]).resolve(), Path(entry["directory"])
-    digest = hashlib.sha256(configuration + entry["command"].encode())
+    digest = hashlib.sha256(configuration + entry["command"].replace(str(ROOT), ".").encode())
     for path in _closure(source, _own_folders(entry["command"], directory)):
-        digest.update(str(path.relative_to(ROOT)).encode() + b"\0" + _content(path) + b"\0")
+        text = _content(path).replace(str(ROOT).encode(), b".")  # a source that names others does so by their whole paths
+        digest.update(str(path.relative_to(ROOT)).encode() + b"\0" + text + b"\0")
     return digest.hexdigest()
 
 
@@ -145,8 +147,8 @@ def _groups(entries: list[dict], build: Path, jobs: int) -> list[list[dict]]:
 def _check_together(number: int, entries: list[dict], build: Path, configuration: bytes) -> list[Case]:
     """What is found in several rooms together is looked for again in each: their names may only clash."""
     if len(entries) > 1:
-        folder = CLEAN / f"group-{number}"
-        folder.mkdir(exist_ok=True)
+        folder = build / f"tidy/group-{number}"
+        folder.mkdir(parents=True, exist_ok=True)
         source = folder / "rooms.cxx"
         source.write_text("".join(f'#include "{Path(entry["file"]).resolve()}"\n' for entry in entries))
         added = [word for entry in entries for word in _flags(entry)[0]]
@@ -212,6 +214,7 @@ def main() -> int:
     CLEAN.mkdir(parents=True, exist_ok=True)
     version = subprocess.run([TIDY, "--version"], capture_output=True, check=True).stdout
     configuration = version + " ".join(COMMAND).encode() + _content(ROOT / ".clang-tidy") + _content(ROOT / "tests/.clang-tidy")
+    configuration += _content(PACKAGES) if PACKAGES.exists() else b""
     entries = [entry for entry in _entries(arguments.build)
                if not arguments.only or any(word in entry["file"] for word in arguments.only)]
     clean = [entry for entry in entries if _is_clean(entry, configuration)]

@@ -85,7 +85,6 @@ class Assets(EndToEnd):
         self.assertEqual(display.stop(60), 0, display.text())
         return json.loads([line for line in display.text().splitlines() if line.startswith("{")][-1])
 
-    @marked("not-address")
     def test_the_exhibit_comes_over_http_and_the_next_time_from_the_disk(self):
         first = self.summary(self.display(), f"{MODEL}: is here")
         self.assertEqual((first["missing_assets"], first["differing_assets"]), ([], []))
@@ -95,7 +94,6 @@ class Assets(EndToEnd):
         again = self.summary(self.display(), f"{MODEL}: is here")
         self.assertEqual(again["missing_assets"], [])
 
-    @marked("not-address")
     def test_another_model_is_not_shown_and_the_right_one_is_when_it_comes(self):
         self.assets.instead = "/models/odometer.glb"
         display = self.display()
@@ -105,7 +103,6 @@ class Assets(EndToEnd):
         self.assertEqual(self.summary(display, f"{MODEL}: is here now")["missing_assets"], [])
         self.assertEqual(display.text().count("it is not used"), 1)
 
-    @marked("not-address")
     def test_without_a_server_of_assets_boxes_are_shown_until_it_is_up(self):
         port = self.assets.port
         self.assets.close()
@@ -115,7 +112,6 @@ class Assets(EndToEnd):
         self.assets = AssetServer(port)
         self.assertEqual(self.summary(display, f"{MODEL}: is here now")["missing_assets"], [])
 
-    @marked("not-address")
     def test_the_root_of_a_web_server_will_do_and_a_steps_picture_waits_for_its_model(self):
         self.assets.gate = threading.Event()
         display = self.display("--every-step", path="/")
@@ -127,7 +123,6 @@ class Assets(EndToEnd):
         self.assertIn(f"{MODEL}: is here", display.text().split("wrote ")[0])
         self.assertEqual(display.stop(60), 0, display.text())
 
-    @marked("not-address")
     def test_a_display_killed_half_way_leaves_nothing_half(self):
         self.assets.gate = threading.Event()
         display = self.display()
@@ -138,7 +133,6 @@ class Assets(EndToEnd):
         self.assertEqual(self.summary(self.display(), f"{MODEL}: is here")["missing_assets"], [])
         self.assertEqual([file.suffix for file in self.kept()], [".glb"])
 
-    @marked("not-address")
     def test_a_full_disk_costs_the_cache_and_not_the_picture(self):
         prefix = self.full_disk(self.folder / "cache")
         if prefix[0] != "unshare":

@@ -115,6 +115,7 @@ class Devices(EndToEnd):
         forces, closed = self.trace()
         self.assertEqual((forces[-1][1], closed), (0, 1))
 
+    @marked("address")
     def test_a_hand_on_a_real_device_feels_the_exhibit_and_is_let_go(self):
         self.server(records=False)
         report = self.folder / "haptic.json"
@@ -135,7 +136,7 @@ class Devices(EndToEnd):
         told = self.run_command("echo", "KioskStatus", "--json", "--seconds", "2").stdout
         return any(wanted.items() <= json.loads(line).items() for line in told.splitlines() if line.startswith("{"))
 
-    @marked("draws")
+    @marked("draws", "address")
     def test_the_display_shows_that_the_handle_was_let_go(self):
         self.server(records=False)
         display = self.start("display", "display", "--offscreen", "--kiosk", "kiosk-1", "--size", "640x360",
@@ -187,6 +188,7 @@ class Devices(EndToEnd):
         self.assertLessEqual(len(asked), 5 * (done - first) / 1e9, "a few messages a second")
         wait_until(lambda: not disc(), 30, "the thanks are over")
 
+    @marked("address")
     def test_a_glove_is_fitted_to_the_next_visitor_without_a_restart(self):
         """Staff ask for it by a signal. The stand-in of a glove shows what it is asked for."""
         flat, fist, pinch = [0] * 20, [-20, 25, 40, 60] + 4 * [0, 90, 100, 90], [-8, 18, 40, 30, 0, 62, 42, 24] + 3 * [0, 10, 10, 10]
@@ -246,6 +248,7 @@ class Devices(EndToEnd):
         wait_until(lambda: "trying again" in haptic.text(), 20, haptic.text())
         self.assertEqual(haptic.stop(), 0, haptic.text())
 
+    @marked("address")
     def test_two_devices_of_a_kiosk_work_and_fail_each_on_its_own(self):
         server = self.server(records=False)
         at_kiosk = ["haptic", "--kiosk", "kiosk-1", "--center", "0", "0.72", "0.19", "--device"]
@@ -277,6 +280,7 @@ class Devices(EndToEnd):
         first.kill()
         wait_until(lambda: self.calibrations(echo, 1)[-1] == "flat", 20, second.text())
 
+    @marked("address")
     def test_a_driver_that_dies_ends_the_haptic_program(self):
         """systemd starts it again."""
         haptic = self.start("haptic", "haptic", "--kiosk", "kiosk-1", "--device", self.device("fault=crash,after=300"))
@@ -298,6 +302,7 @@ class Devices(EndToEnd):
         self.assertIn("no real device", self.refused("visitor", "--device", "fake"))
         self.assertIn("nobody would move", self.refused("visitor", "--device", "virtual:hand=off"))
 
+    @marked("address")
     def test_a_recorded_hand_is_played_again(self):
         files = [self.folder / "first", self.folder / "again"]
         devices = ["virtual", f"playback:file={files[0]},speed=4"]

@@ -20,7 +20,6 @@ class Faults(EndToEnd):
         self.assertIn("kiosk-1", second.text())
         self.assertTrue(first.running())
 
-    @marked("not-address")
     def test_a_killed_visitor_lets_go_and_its_successor_is_back_in_the_world(self):
         server = self.server()
         visitor = self.visitor("kiosk-1", "--activity", "use")
@@ -52,6 +51,7 @@ class Faults(EndToEnd):
         self.assertLess(report["silent_ticks"], 1000, f"it felt nothing for too long: {report}")
         self.assertEqual(server.stop(), 0)
 
+    @marked("address")
     def test_a_killed_server_puts_the_kiosk_back_at_its_step(self):
         server = self.server()
         visitor = self.visitor("kiosk-1", "--activity", "use", "--endless", "--patience", "30")
@@ -70,6 +70,7 @@ class Faults(EndToEnd):
         self.assertTrue(visitor.running())
         self.assertEqual(third.stop(), 0)
 
+    @marked("address")
     def test_kiosks_that_wait_get_a_world_when_one_is_free(self):
         server = self.server("--worlds", "1", "--world-idle", "1")
         first = self.start("haptic-1", "haptic", "--kiosk", "kiosk-1")
@@ -88,7 +89,6 @@ class Faults(EndToEnd):
             self.assertGreater(json.loads(report.read_text())["answers"], 50)
         self.assertEqual(server.stop(), 0)
 
-    @marked("not-address")
     def test_a_server_that_is_kept_from_its_processor_says_so(self):
         server = self.server()
         self.start("haptic", "haptic", "--kiosk", "kiosk-1")
@@ -109,7 +109,6 @@ class Faults(EndToEnd):
         # Its status goes out just after the line in its log.
         self.assertIn("mechane doctor", wait_until(doctor_warns, 5, "mechane doctor tells it too")["remedy"])
 
-    @marked("not-address")
     def test_a_full_disk_under_the_journal_is_survived(self):
         server = self.server(prefix=self.full_disk(self.folder / "records"))
         visitor = self.visitor("kiosk-1", "--activity", "use")
@@ -135,6 +134,7 @@ class Faults(EndToEnd):
         wait_until(lambda: "looking for a server" in visitor.text(), 10, "the visitor says what it waits for")
         self.assertEqual(visitor.stop(5), 2, visitor.text())
 
+    @marked("address")
     def test_a_clean_stop_and_systemd_are_told(self):
         path = str(self.folder / "notify")
         listener = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
@@ -152,6 +152,7 @@ class Faults(EndToEnd):
         report = json.loads((self.folder / "server.json").read_text())
         self.assertGreater(report["ticks"], 0)
 
+    @marked("address")
     def test_two_users_share_a_world(self):
         server = self.server()
         first = self.visitor("kiosk-1", "--activity", "use", "--endless")
@@ -166,6 +167,7 @@ class Faults(EndToEnd):
         self.assertNotIn("world world-2 opened", server.text())
 
 
+@marked("address")
 class BadInput(EndToEnd):
     def refuse(self, text, expected):
         path = self.folder / "bad.x3d"

@@ -7,7 +7,7 @@ import unittest
 from harness import EndToEnd, marked, wait_until
 
 
-@marked("draws", "not-address")
+@marked("draws")
 class Film(EndToEnd):
     def display(self, *arguments, size="320x180"):
         return self.start("display", "display", "--kiosk", "wall", "--language", "en", "--offscreen", "--size", size, "--quality", "high",

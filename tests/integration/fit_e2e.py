@@ -66,7 +66,6 @@ class Fit(EndToEnd):
     def files(self):
         return sorted(p.name for p in self.folder.iterdir())
 
-    @marked("not-address")
     def test_a_mesh_becomes_an_object_and_a_page(self):
         mesh = self.mesh("crank.obj", CRANK)
         result = self.run_command("fit", mesh, limit_s=120)
@@ -102,6 +101,7 @@ class Fit(EndToEnd):
         self.assertFalse(json.loads((self.folder / "block.json").read_text())["met"])
         self.assertIn("exceed the allowed error", result.stdout)
 
+    @marked("address")
     def test_a_bad_mesh_is_told_and_does_not_stop_the_others(self):
         bad = {
             "empty.obj": "",
@@ -124,6 +124,7 @@ class Fit(EndToEnd):
     def fit_alone(self, name, content, limit_s=120):
         return self.run_command("fit", self.mesh(name, content), "--report", "none", limit_s=limit_s)
 
+    @marked("address")
     def test_an_open_mesh_is_built_with_a_word_about_it(self):
         text = "\n".join(CRANK.splitlines()[:-1]) + "\n"  # the last triangle is gone
         fin = BOX + "v 0.02 0.02 0.3\nf 1 2 9\n"  # three triangles share an edge
@@ -133,6 +134,7 @@ class Fit(EndToEnd):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stdout, says)
 
+    @marked("address")
     def test_a_value_that_is_not_a_number_is_reported(self):
         for name, content in (("nan.obj", CRANK.replace("v 0.02 ", "v nan ", 1)), ("inf.obj", BOX.replace("v -0.02 ", "v inf ", 1))):
             result = self.fit_alone(name, content)
@@ -140,7 +142,6 @@ class Fit(EndToEnd):
             self.assertRegex(result.stderr, rf"{name}, mesh part_\w+: corner \d+ .* not a finite number; .*export it again")
         self.assertEqual([name for name in self.files() if name.endswith(".part")], [])
 
-    @marked("not-address")
     def test_faults_that_can_be_mended_are(self):
         turned = re.sub(r"f (\d+) (\d+) (\d+)", r"f \1 \3 \2", BOX)
         faces = [line for line in BOX.splitlines() if line.startswith("f ")]
@@ -161,6 +162,7 @@ class Fit(EndToEnd):
             self.assertLess(float(felt[1]), 5 if name == "crossed.obj" else 1, result.stdout)
             self.assertLess(float(felt[2]), 0.5, result.stdout)
 
+    @marked("address")
     def test_a_sheet_is_made_thick_or_refused_where_it_must_be_closed(self):
         sheet = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\n"
         for name, faces in (("two.obj", "f 1 2 3\nf 1 3 4\n"), ("folded.obj", "f 1 2 3\nf 1 3 2\n")):
@@ -171,13 +173,11 @@ class Fit(EndToEnd):
             self.assertEqual(result.returncode, 1, result.stdout)
             self.assertRegex(result.stderr, rf"mechane fit: .*{name}.*: .*; .+")
 
-    @marked("not-address")
     def test_a_fine_mesh_is_done_in_a_while(self):
         result = self.fit_alone("fine.stl", fine_ball(50_000), limit_s=240)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"1 part, [45]\d{4} triangles")
 
-    @marked("not-address")
     def test_two_meshes_of_one_name_do_not_overwrite_each_other(self):
         first = self.mesh("a/crank.obj", CRANK)
         second = self.mesh("b/crank.obj", CRANK)
@@ -193,7 +193,6 @@ class Fit(EndToEnd):
         self.assertRegex(result.stderr, r"fence\.obj.*; name ")
         self.assertNotIn("parts built", result.stderr)
 
-    @marked("not-address")
     def test_a_full_disk_is_told_and_leaves_nothing(self):
         mesh = self.mesh("fence.obj", FENCE)
         out = self.folder / "small"
@@ -214,6 +213,7 @@ class Fit(EndToEnd):
                                 capture_output=True, text=True, timeout=300, env=self.environment)
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    @marked("address")
     def test_ctrl_c_ends_it_at_once_and_leaves_nothing(self):
         mesh = self.mesh("fence.obj", FENCE)
         (self.folder / "fence.part").write_text("the old one")

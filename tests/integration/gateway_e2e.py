@@ -73,7 +73,7 @@ class Gateway(EndToEnd):
         self.assertEqual(refusal.exception.status, status, refusal.exception.body)
         self.assertTrue(json.loads(refusal.exception.body)["remedy"])
 
-    @marked("alone", "not-address")
+    @marked("alone")
     def test_a_browser_sees_the_screw_and_turns_its_crank(self):
         self.server()
         process, page = self.gateway()
@@ -126,6 +126,7 @@ class Gateway(EndToEnd):
         browser.wait("overlay", lambda overlay: overlay["largeText"])
         self.assertEqual(process.stop(), 0, process.text())
 
+    @marked("address")
     def test_who_has_no_right_is_told_why(self):
         process, page = self.gateway("--kiosk", "kiosk-1", "kiosk-2")
         path = self.path(process)
@@ -160,6 +161,7 @@ class Gateway(EndToEnd):
         wait_until(lambda: not browser.open, 10, "a message over the limit ends the socket")
         self.assertEqual(process.stop(), 0, process.text())
 
+    @marked("address")
     def test_operators_sign_in_and_steer_a_kiosk(self):
         self.server(scenario=[ROOT / "scenarios/village/village.x3d", SCENARIO])
         process, page = self.gateway("--records", self.folder / "records")
@@ -223,7 +225,7 @@ class Gateway(EndToEnd):
         self.assertTrue(int(headers["retry-after"]) >= 1)
         self.assertEqual(process.stop(), 0, process.text())
 
-    @marked("alone", "not-address")
+    @marked("alone")
     def test_fifty_browsers_one_of_which_reads_nothing(self):
         self.server(records=False)
         process, page = self.gateway()
@@ -246,6 +248,7 @@ class Gateway(EndToEnd):
             browser.close()
         self.assertEqual(process.stop(), 0, process.text())
 
+    @marked("address")
     def test_a_thousand_connections_are_refused_politely(self):
         process, page = self.gateway("--most-connections", "60", "--most-of-address", "50")
         held, told = [], 0
@@ -266,6 +269,7 @@ class Gateway(EndToEnd):
         wait_until(lambda: page.get("/console")[0] == 200, 20, "there is room again")
         self.assertEqual(process.stop(), 0, process.text())
 
+    @marked("address")
     def test_beyond_this_machine_only_with_tls(self):
         process, page = self.gateway("--listen", "0.0.0.0:0")
         self.assertTrue(page.tls, process.text())
@@ -280,6 +284,7 @@ class Gateway(EndToEnd):
         self.assertEqual(process.stop(), 0, process.text())
         self.assertEqual((self.state / "tls-cert.pem").read_bytes(), certificate)
 
+    @marked("address")
     def test_an_address_that_nobody_uses_ends(self):
         process, page = self.gateway("--token-idle", "0.05")
         browser = Browser(page, self.path(process))

@@ -42,7 +42,7 @@ class Link:
         self.process.stdout.close()
 
 
-@marked("draws", "not-address")
+@marked("draws")
 class Kiosk(EndToEnd):
     def display(self, *arguments, name="wall", prefix=(), environment=None):
         return self.start(name, "display", "--offscreen", "--kiosk", "kiosk-1", "--name", name, "--size", "160x90", "--fps", "10",

@@ -26,7 +26,7 @@ def scenario_of(name):
     return ROOT / f"scenarios/{name}/{name}.x3d"
 
 
-@marked("alone", "not-address")
+@marked("alone")
 class Touch(EndToEnd):
     @contextlib.contextmanager
     def visitor_at(self, scenario):

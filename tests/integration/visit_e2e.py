@@ -10,7 +10,6 @@ from harness import BIN, PATIENCE, ROOT, SCENARIO, EndToEnd, marked, repeat_unti
 
 
 class Visit(EndToEnd):
-    @marked("not-address")
     def test_two_kiosks_complete_both_activities_and_replay(self):
         server = self.server("--worlds", "2")
         visitors = [self.visitor("kiosk-1"), self.visitor("kiosk-2", "--direct")]
@@ -46,17 +45,16 @@ class Visit(EndToEnd):
         self.assertEqual(report["water_l"], 0)
         self.assertAlmostEqual(report["quantities"].get("turns", 0), 0, delta=0.01)
 
-    @marked("not-address")
     def test_five_centimetres_beside_the_handle_nothing_turns(self):
         # Half the handle's length and 5 cm more along the axis: in the circle's plane the hand would meet the handle after a turn.
         report = self.use_only(visitor_arguments=("--offset", "0.0918", "0.0692", "0"))
         self.assert_nothing_turned(report)
         self.assertEqual(report["holding_ticks"], 0)
 
-    @marked("not-address")
     def test_without_stiffness_nothing_turns(self):
         self.assert_nothing_turned(self.use_only(server_arguments=("--stiffness-scale", "0")))
 
+    @marked("address")
     def test_the_examples_of_the_client_library_run(self):
         self.server("--worlds", "3")
         for example, expected in (("watch_quantities", "basin"), ("push_a_body", "forces"), ("turn_the_crank", "was held")):
@@ -65,6 +63,7 @@ class Visit(EndToEnd):
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
             self.assertIn(expected, result.stdout)
 
+    @marked("address")
     def test_echo_prints_a_topic_as_json(self):
         self.server()
         result = self.run_command("echo", "ServerStatus", "--count", "1", "--seconds", "10", "--json")
@@ -85,6 +84,7 @@ class Visit(EndToEnd):
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)["scenario"]
 
+    @marked("address")
     def test_a_sign_opens_another_exhibit_and_home_brings_back(self):
         scenarios = [ROOT / "scenarios/village/village.x3d", SCENARIO]
         server = self.server(scenario=scenarios)
@@ -144,7 +144,7 @@ class Visit(EndToEnd):
         self.assertRegex(result.stdout, r"use: visit turning, step \w+: all moves made; waiting up to 1 s for the step to be done")
         self.assertRegex(json.loads(file.read_text())["activities"][0]["reason"], r"visit turning, step \w+: it was not done in time")
 
-    @marked("draws", "not-address")
+    @marked("draws")
     def test_a_click_on_a_sign_opens_its_exhibit_and_the_key_home_leads_back(self):
         server = self.server(scenario=[ROOT / "scenarios/village/village.x3d", SCENARIO], records=False)
         with self.screen("640x360") as environment:
@@ -169,6 +169,7 @@ class Visit(EndToEnd):
         self.assertEqual(result.returncode, 2)
         self.assertIn("the kiosk's name is empty", result.stderr)
 
+    @marked("address")
     def test_who_opens_where_nobody_is_hears_whether_a_server_is_there(self):
         result = self.run_command("open", "archimedes-screw", "--kiosk", "kiosk-9")
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
@@ -179,6 +180,7 @@ class Visit(EndToEnd):
         self.assertIn("no display and no device has joined any kiosk", result.stderr)
         self.assertIn("start 'mechane display --kiosk kiosk-9' first", result.stderr)
 
+    @marked("address")
     def test_a_visit_that_is_not_there_is_answered_with_the_list_of_visits(self):
         result = self.run_command("visitor", "--scenario", SCENARIO, "--visit", "nobodys", limit_s=10)
         self.assertEqual(result.returncode, 2)
@@ -191,12 +193,10 @@ class Visit(EndToEnd):
             self.assertEqual(result.returncode, 2, (command, result.stdout + result.stderr))
             self.assertNotEqual(result.stderr, "", command)
 
-    @marked("not-address")
     def test_a_whole_hand_completes_the_use(self):
         report = self.use_only(visitor_arguments=("--glove",))
         self.assertTrue(report["activities"][0]["done"], report)
 
-    @marked("not-address")
     def test_a_mouse_before_a_picture_assembles_the_screw(self):
         self.server()
         visitor = self.visitor("kiosk-1", "--activity", "assemble", "--device", "pointer")

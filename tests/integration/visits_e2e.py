@@ -56,6 +56,7 @@ class Visits(EndToEnd):
             (minute,) = file.execute("SELECT max(minute) FROM visit").fetchone()
         self.assertLess(minute, 10_000_000_000 // 60, "the minute, not the second")
 
+    @marked("address")
     def test_an_observer_remarks_and_forgets_while_the_server_runs(self):
         self.server()
         visitor = self.visitor("kiosk-1", "--activity", "assemble")
@@ -70,6 +71,7 @@ class Visits(EndToEnd):
         self.assertEqual((result.returncode, result.stdout), (0, "1 visit forgotten\n"), result.stderr)
         self.assertEqual(self.records(), [])
 
+    @marked("address")
     def test_a_killed_server_loses_the_step_at_hand_at_most_and_the_visit_goes_on(self):
         server = self.server()
         visitor = self.visitor("kiosk-1", "--activity", "use", "--endless", "--patience", "30")
@@ -97,7 +99,7 @@ class Visits(EndToEnd):
     def database(self):
         return (self.folder / "records/visits.db").exists()
 
-    @marked("alone")  # in a user namespace the server's loop may have no real-time rights: what runs beside it would spoil the visits
+    @marked("alone", "address")  # in a user namespace the server's loop may have no real-time rights: what runs beside it would spoil the visits
     def test_a_full_disk_costs_records_and_not_the_visit(self):
         server = self.server(prefix=self.full_disk(self.folder / "records"))
         visitors = [self.visitor("kiosk-1", "--activity", "assemble"), self.visitor("kiosk-2", "--activity", "assemble")]
@@ -110,6 +112,7 @@ class Visits(EndToEnd):
         self.assertIn(troubles - ends, (0, 1), "once when it begins, once when it is over")
         self.assertEqual(server.stop(), 0, server.text())
 
+    @marked("address")
     def test_a_damaged_file_is_set_aside_and_a_new_one_begun(self):
         (self.folder / "records").mkdir()
         (self.folder / "records/visits.db").write_bytes(b"no database " * 1000)
@@ -137,7 +140,7 @@ class Visits(EndToEnd):
         self.assertEqual(result.returncode, 1)
         self.assertIn("there is no file of visits", result.stderr)
 
-    @marked("draws", "not-address")
+    @marked("draws")
     def test_an_answer_given_by_a_click_is_in_the_record(self):
         self.server(scenario=VILLAGE)
         with self.screen("640x360") as environment:

@@ -10,7 +10,7 @@ from harness import PATIENCE, ROOT, EndToEnd, marked, wait_until
 CRANE = ROOT / "scenarios/pulley-crane/pulley-crane.x3d"
 
 
-@marked("draws", "not-address")
+@marked("draws")
 class Web(EndToEnd):
     def address(self):
         """Of a kiosk's page, at a gateway of its own."""

@@ -17,7 +17,6 @@
 #include "server/content/mesh_import.hpp"
 #include "tests/integration/pictures/reference_picture.hpp"
 #include "tests/support/picture_likeness.hpp"
-#include "tests/support/sanitizers.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace mechane::display {
@@ -138,7 +137,6 @@ Sheets& sheets() {
 class PlacePictures : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    MECHANE_NOT_UNDER_ADDRESS_SANITIZER("the software renderer takes minutes for it");
     auto context = draw::make_offscreen_context(kPicture);
     ASSERT_TRUE(context.has_value()) << context.error().to_string();
     context_ = std::move(*context);
