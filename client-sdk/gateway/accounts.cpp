@@ -99,7 +99,7 @@ Expected<void> Accounts::put(const std::string& user, Account account) {
 
 Expected<void> Accounts::remove(const std::string& user) {
   if (find(user) == nullptr)
-    return fail(ErrorCode::not_found, "there is no user of this name", user, "GET /api/accounts lists them");
+    return fail(ErrorCode::not_found, "no user has this name", user, "GET /api/accounts lists them");
   auto changed = accounts_;
   changed.erase(user);
   if (std::ranges::none_of(changed, [](const auto& entry) { return entry.second.role == Role::manager; }))

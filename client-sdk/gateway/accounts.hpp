@@ -27,12 +27,12 @@ class Accounts {
   static constexpr std::size_t kMost = 200;
   static constexpr std::size_t kLeastPassword = 10;  ///< letters
 
-  /// Where there is no file yet, the operator 'operator' is made: first_password() tells its password once. Slow.
+  /// If there is no file yet, makes the operator 'operator'; first_password() tells its password once. Slow.
   /// Errors: io_failure, damaged.
   [[nodiscard]] static Expected<Accounts> open(const std::filesystem::path& folder);
   [[nodiscard]] const std::string& first_password() const { return first_password_; }
 
-  /// None: there is no user of this name.
+  /// None if no user has this name.
   [[nodiscard]] const Account* find(const std::string& user) const;
   [[nodiscard]] const std::map<std::string, Account>& all() const { return accounts_; }
   /// Writes the file. Errors, with nothing changed: a bad name, too many, io_failure.

@@ -139,6 +139,7 @@ void Browser::take(const StatusMessage& message) {
 
 void Browser::forget_world() {
   hand_.release();
+  decisions_ = {};  // the next world is told the language anew
 }
 
 picture::OverlayContent Browser::words(TimePoint now) {

@@ -74,7 +74,8 @@ def begin_ahead(phases: list[Phase]) -> processes.Beside | None:
     return processes.Beside(["sh", "-c", " && ".join(commands)], OUT / "beside.log") if commands else None
 
 
-def _run_ctest(preset: str, log: Path, jobs: int, only: tuple[str, ...] = (), leave_out: str = "", named: str = "", times: int = 1) -> Tally:
+def _run_ctest(preset: str, log: Path, jobs: int, only: tuple[str, ...] = (), leave_out: str = "", named: str = "",
+               times: int = 1) -> Tally:
     junit = log.with_suffix(".xml")
     junit.unlink(missing_ok=True)
     command = ["ctest", "--test-dir", f"build/{preset}", "-j", str(jobs), "--output-on-failure", "--no-tests=error", "--output-junit", str(junit)]

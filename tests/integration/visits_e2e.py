@@ -99,7 +99,8 @@ class Visits(EndToEnd):
     def database(self):
         return (self.folder / "records/visits.db").exists()
 
-    @marked("alone", "address")  # in a user namespace the server's loop may have no real-time rights: what runs beside it would spoil the visits
+    # In a user namespace the server's loop may have no real-time rights: what runs beside it would spoil the visits.
+    @marked("alone", "address")
     def test_a_full_disk_costs_records_and_not_the_visit(self):
         server = self.server(prefix=self.full_disk(self.folder / "records"))
         visitors = [self.visitor("kiosk-1", "--activity", "assemble"), self.visitor("kiosk-2", "--activity", "assemble")]

@@ -9,8 +9,8 @@ const kModels = fileURLToPath(new URL('../../../../scenarios/models/', import.me
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
 const kStill = [0, 0, 0, 0, 0, 0, 1];
 /** As the gateway has it: what the page may not do there, it may not do here. */
-const kPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob: ws:; " +
-  "media-src 'self' blob:; worker-src 'self' blob:";
+const kPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; " +
+  "connect-src 'self' blob: ws:; media-src 'self' blob:; worker-src 'self' blob:";
 
 /** The nodes of a .glb file that are things, with where they stand. */
 function thingsOf(model) {
