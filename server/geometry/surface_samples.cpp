@@ -51,10 +51,10 @@ std::vector<SurfaceSample> sample_by_area(const Mesh& mesh, std::size_t count, s
 std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m, std::uint64_t seed,
                                              const std::function<bool(const SurfaceSample&)>& accept) {
   // A vertex once for each of its triangles: one of them may be accepted where another is not.
-  std::vector<SurfaceSample> candidates;
+  std::vector<SurfaceSample> vertices;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t v : mesh.triangles[i])
-      candidates.push_back({mesh.vertices[v], i});
+      vertices.push_back({mesh.vertices[v], i});
   }
   const double wanted = kCandidatesPerCell * surface_area_m2(mesh) / (spacing_m * spacing_m);
   const auto count = static_cast<std::size_t>(std::min(std::ceil(wanted), static_cast<double>(kMaxCandidates)));
@@ -63,24 +63,24 @@ std::vector<SurfaceSample> sample_by_spacing(const Mesh& mesh, double spacing_m,
   Random shuffle(seed + 1);
   for (std::size_t i = random.size(); i > 1; --i)
     std::swap(random[i - 1], random[shuffle.below(i)]);
-  const std::size_t first_random = candidates.size();
-  candidates.insert(candidates.end(), random.begin(), random.end());
 
   ApartFilter apart(kClosest * spacing_m);
   ApartFilter refused(kRefusedReach * spacing_m);  // spares asking `accept` again and again beside a refused point
   std::vector<SurfaceSample> kept;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const SurfaceSample& candidate = candidates[i];
-    if (!apart.is_apart(candidate.p)) continue;
-    if (accept) {
-      if (i >= first_random && !refused.is_apart(candidate.p)) continue;
-      if (!accept(candidate)) {
-        if (i >= first_random) refused.put(candidate.p);
-        continue;
-      }
+  const auto keep = [&](const SurfaceSample& sample) {
+    apart.put(sample.p);
+    kept.push_back(sample);
+  };
+  for (const SurfaceSample& vertex : vertices) {
+    if (apart.is_apart(vertex.p) && (!accept || accept(vertex))) keep(vertex);
+  }
+  for (const SurfaceSample& candidate : random) {
+    if (!apart.is_apart(candidate.p) || (accept && !refused.is_apart(candidate.p))) continue;
+    if (accept && !accept(candidate)) {
+      refused.put(candidate.p);
+      continue;
     }
-    apart.put(candidate.p);
-    kept.push_back(candidate);
+    keep(candidate);
   }
   return kept;
 }

@@ -32,7 +32,7 @@ struct Aside {
 };
 
 std::optional<Aside> aside_of(const x3d::Schema& x3d, const x3d::NodeType& type) {
-  if (find_node_table(type.name) != nullptr) return std::nullopt;
+  if (type.name.starts_with("Metadata") || find_node_table(type.name) != nullptr) return std::nullopt;
   const auto is = [&](std::string_view base) { return x3d.is_a(type.name, base); };
   if (is("X3DRigidJointNode"))
     return Aside{"not simulated", "use SingleAxisHingeJoint, SliderJoint or BallJoint, or an agent"};
@@ -53,7 +53,7 @@ std::optional<Aside> aside_of(const x3d::Schema& x3d, const x3d::NodeType& type)
     return Aside{"neither drawn nor touched",
                  "use a Box, Sphere, Cone, Cylinder, IndexedFaceSet, IndexedTriangleSet, TriangleSet, Extrusion or "
                  "ElevationGrid, or put the shape into a mesh file"};
-  if (type.is_statement() || type.name.starts_with("Metadata")) return std::nullopt;
+  if (type.is_statement()) return std::nullopt;
   if (is("X3DBindableNode") || is("X3DLightNode") || type.name == "LocalFog" || is("X3DInfoNode")) return std::nullopt;
   return Aside{"not simulated", "other X3D readers may show it"};
 }

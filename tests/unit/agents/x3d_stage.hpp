@@ -19,15 +19,22 @@ class Balls final : public scenario::ObjectLoader {
   Expected<std::shared_ptr<const collision::Object>> load(const std::filesystem::path& /*file*/,
                                                           const std::string& /*node*/,
                                                           const geometry::SolidChoice& /*solid*/) override {
-    geometry::Superquadric ball;
-    ball.a = Vec3(0.5, 0.5, 0.5);
-    return std::make_shared<const collision::Object>(collision::make_superquadric_object(ball, 0.05));
+    return ball_;
   }
   Expected<std::optional<scenario::Solid>> solid(const std::filesystem::path& /*file*/,
                                                  const std::string& /*node*/) override {
     return std::nullopt;
   }
   Expected<std::string> content_hash(const std::filesystem::path& /*file*/) override { return std::string(32, '0'); }
+
+ private:
+  static std::shared_ptr<const collision::Object> make_ball() {
+    geometry::Superquadric ball;
+    ball.a = Vec3(0.5, 0.5, 0.5);
+    return std::make_shared<const collision::Object>(collision::make_superquadric_object(ball, 0.05));
+  }
+
+  std::shared_ptr<const collision::Object> ball_ = make_ball();
 };
 
 struct X3dStage {
@@ -66,7 +73,7 @@ struct X3dStage {
 
   static state::WorldDescription compiled(const std::string& scene) {
     x3d::Problems problems("stage.x3d");
-    Balls balls;
+    static Balls balls;  // a property compiles hundreds of scenes
     const auto document = x3d::read_document("<X3D version='4.0' profile='Full'><Scene>\n" + scene + "</Scene></X3D>",
                                              "stage.x3d", problems);
     if (!document) throw std::runtime_error(document.error().to_string());
