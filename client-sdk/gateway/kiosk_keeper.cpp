@@ -60,8 +60,8 @@ void KioskKeeper::lead_home(GatewaySite& site, const std::string& kiosk, const K
   if (std::exchange(kept.sign, wish.sign) == wish.sign) return;
   site.note_own("sign", kiosk + ": " + wish.sign);
   if (wish.sign == "none") return;
-  const bool shown =
-      std::ranges::count(site.watch().displays(), kiosk, &client::DisplayStatus::kiosk) > 0;  // nobody visits a dark kiosk
+  const bool shown = std::ranges::count(site.watch().displays(), kiosk, &client::DisplayStatus::kiosk) >
+                     0;  // nobody visits a dark kiosk
   if (shown) open_at_kiosk(site, kiosk, "", told_if_refused(kiosk + " did not go home"));
 }
 

@@ -102,7 +102,8 @@ Expected<DayHours> parse_day(const HoursJson& json, const std::string& field) {
     auto span = parse_span(one, field);
     if (!span) return tl::unexpected(span.error());
     if (!day.empty() && span->from_min <= day.back().to_min)
-      return wrong_hours("the hours overlap, or are not in order", field, "write them in order, with time between them");
+      return wrong_hours("the hours overlap, or are not in order", field,
+                         "write them in order, with time between them");
     day.push_back(*span);
   }
   return day;
@@ -124,7 +125,8 @@ Expected<HoursPlan> parse_plan(const HoursJson& json, const std::string& field) 
   if (!exceptions->is_object())
     return wrong_hours("exceptions are an object by date", field + ".exceptions", R"(write {"2026-12-25": []})");
   if (exceptions->size() > OpeningHours::kMostExceptions)
-    return fail(ErrorCode::too_large, "there are too many exceptions", field + ".exceptions", "remove those of the past");
+    return fail(ErrorCode::too_large, "there are too many exceptions", field + ".exceptions",
+                "remove those of the past");
   for (const auto& [date, hours] : exceptions->items()) {
     if (!is_date(date))
       return wrong_hours("this is no date", field + ".exceptions", "write the year, month and day: 2026-12-25");
@@ -206,7 +208,8 @@ std::string hours_text(const OpeningHours& hours) {
     kiosks[kiosk] = plan_json(plan);
   for (const auto& [kiosk, mac] : hours.wake)
     wake[kiosk] = mac;
-  return HoursJson{{"museum", hours.museum ? plan_json(*hours.museum) : HoursJson()}, {"kiosks", kiosks}, {"wake", wake}}
+  return HoursJson{
+      {"museum", hours.museum ? plan_json(*hours.museum) : HoursJson()}, {"kiosks", kiosks}, {"wake", wake}}
       .dump();
 }
 
@@ -218,8 +221,9 @@ const HoursPlan* plan_of(const OpeningHours& hours, const std::string& kiosk) {
 bool is_open(const HoursPlan& plan, std::int64_t at) {
   const std::tm local = local_of(at);
   const int minute = 60 * local.tm_hour + local.tm_min;
-  return std::ranges::any_of(hours_on(plan, local),
-                             [minute](const OpenSpan& span) { return minute >= span.from_min && minute < span.to_min; });
+  return std::ranges::any_of(hours_on(plan, local), [minute](const OpenSpan& span) {
+    return minute >= span.from_min && minute < span.to_min;
+  });
 }
 
 std::optional<std::int64_t> next_change(const HoursPlan& plan, std::int64_t at) {

@@ -33,9 +33,10 @@ struct OpeningHours {
   static constexpr std::size_t kMostSpans = 4;         ///< of a day
   static constexpr std::size_t kMostExceptions = 400;  ///< of a plan
   static constexpr std::size_t kMostKiosks = 100;
-  std::optional<HoursPlan> museum{};            ///< none: always open
-  std::map<std::string, HoursPlan> kiosks{};    ///< instead of the museum's
-  std::map<std::string, std::string> wake{};    ///< MAC addresses of kiosks that are woken at opening: "02:00:5e:10:00:01"
+  std::optional<HoursPlan> museum{};          ///< none: always open
+  std::map<std::string, HoursPlan> kiosks{};  ///< instead of the museum's
+  std::map<std::string, std::string>
+      wake{};  ///< MAC addresses of kiosks that are woken at opening: "02:00:5e:10:00:01"
   friend bool operator==(const OpeningHours&, const OpeningHours&) = default;
 };
 

@@ -62,8 +62,9 @@ Expected<std::map<std::string, std::string>> message_texts(const StoreJson& json
     client::DisplaySettings tried;
     if (auto fits = client::apply({"message-" + language, text}, tried); !fits) {
       const bool known = language == "el" || language == "en";
-      return wrong_order(known ? "this text is too long, or has line breaks" : "displays have no words in this language",
-                         "texts", known ? "write one line of 240 bytes at most: about 120 letters of Greek" : "write el or en");
+      return wrong_order(
+          known ? "this text is too long, or has line breaks" : "displays have no words in this language", "texts",
+          known ? "write one line of 240 bytes at most: about 120 letters of Greek" : "write el or en");
     }
     out[language] = text;
   }
@@ -141,10 +142,9 @@ Expected<OperationsState> parse_operations(std::string_view text) {
   if (!hours || !next_id || *next_id <= 0) return damaged_store();
   state.next_id = static_cast<std::uint64_t>(*next_id);
   state.hours = std::move(*hours);
-  const bool whole =
-      read_list(json, "messages", OperationsState::kMostMessages, stored_message, state.messages) &&
-      read_list(json, "changes", OperationsState::kMostChanges, stored_change, state.changes) &&
-      read_maintenance(json, state);
+  const bool whole = read_list(json, "messages", OperationsState::kMostMessages, stored_message, state.messages) &&
+                     read_list(json, "changes", OperationsState::kMostChanges, stored_change, state.changes) &&
+                     read_maintenance(json, state);
   if (!whole) return damaged_store();
   return state;
 }
@@ -180,7 +180,8 @@ Expected<std::optional<std::int64_t>> parse_end(std::string_view text, std::int6
   if (minutes != json.end()) {
     const double count = minutes->is_number() ? minutes->get<double>() : 0;
     if (!(count > 0 && count <= kMostMinutes))
-      return wrong_order("this is no number of minutes", "minutes", "write a number above 0, and a week (10080) at most");
+      return wrong_order("this is no number of minutes", "minutes",
+                         "write a number above 0, and a week (10080) at most");
     return now + std::max<std::int64_t>(1, static_cast<std::int64_t>(60 * count));
   }
   if (until == json.end()) return std::nullopt;

@@ -78,7 +78,8 @@ void end_change(GatewaySite& site, const OrderJson& json, const Site::Done& done
 void maintain(GatewaySite& site, const std::string& kiosk, const OrderJson& json, const std::string& body,
               const Site::Done& done) {
   if (!json.contains("on") || !json["on"].is_boolean())
-    return done(refusal(400, "on must be true or false", R"(send {"on": true, "minutes": 60}; without minutes it ends by hand)"));
+    return done(refusal(400, "on must be true or false",
+                        R"(send {"on": true, "minutes": 60}; without minutes it ends by hand)"));
   const auto end = parse_end(body, wall_now());
   if (!end) return done(refusal(end.error()));
   OperationsState next = site.operations().state();
@@ -94,9 +95,8 @@ void maintain(GatewaySite& site, const std::string& kiosk, const OrderJson& json
 void restart_display(GatewaySite& site, const std::string& kiosk, const OrderJson& json, const Site::Done& done) {
   const std::string display = json.contains("display") && json["display"].is_string() ? json["display"] : OrderJson("");
   const auto all = site.watch().displays();
-  const auto found = std::ranges::find_if(all, [&](const client::DisplayStatus& one) {
-    return one.kiosk == kiosk && one.display == display;
-  });
+  const auto found = std::ranges::find_if(
+      all, [&](const client::DisplayStatus& one) { return one.kiosk == kiosk && one.display == display; });
   if (found == all.end())
     return done(refusal(404, "no such display is running", "name one display: GET /api/kiosks lists them"));
   const auto id = site.watch().request(kiosk, display, {.restart = true});
@@ -174,7 +174,8 @@ std::vector<TimedChange> changes_in(GatewaySite& site, const std::string& kiosk,
 OrderJson changes_json(const std::vector<TimedChange>& changes) {
   OrderJson out = OrderJson::array();
   for (const TimedChange& one : changes)
-    out.push_back({{"id", one.id}, {"kiosk", one.kiosk}, {"name", one.name}, {"value", one.value}, {"until", one.until}});
+    out.push_back(
+        {{"id", one.id}, {"kiosk", one.kiosk}, {"name", one.name}, {"value", one.value}, {"until", one.until}});
   return out;
 }
 
@@ -217,7 +218,8 @@ bool answer_operations_post(GatewaySite& site, const HttpRequest& request, const
   const std::string& path = request.path;
   if (path == "/api/hours") return put_hours(site, request.body, done), true;
   if (path == "/api/messages") return add_message(site, request.body, done), true;
-  if (path == "/api/messages/remove") return remove_message(site, OrderJson::parse(request.body, nullptr, false), done), true;
+  if (path == "/api/messages/remove")
+    return remove_message(site, OrderJson::parse(request.body, nullptr, false), done), true;
   if (path == "/api/changes/end") return end_change(site, OrderJson::parse(request.body, nullptr, false), done), true;
   constexpr std::string_view kKiosk = "/api/kiosks/";
   if (!path.starts_with(kKiosk)) return false;

@@ -44,7 +44,8 @@ HttpAnswer maintenance_page() {
   HttpAnswer answer = answer_with(
       "<!doctype html><html lang=\"el\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
       "<title>Mechane</title><h1>Υπό συντήρηση</h1><p>Αυτό το έκθεμα συντηρείται. Παρακαλούμε ελάτε ξανά αργότερα.</p>"
-      "<div lang=\"en\"><h1>Under maintenance</h1><p>This exhibit is being looked after. Please come back later.</p></div>",
+      "<div lang=\"en\"><h1>Under maintenance</h1><p>This exhibit is being looked after. Please come back "
+      "later.</p></div>",
       "text/html; charset=utf-8", 503);
   answer.headers.emplace_back("Cache-Control", "no-store");
   answer.headers.emplace_back("Refresh", "30");

@@ -18,8 +18,9 @@ Expected<sockaddr_in> target_of(const std::string& to) {
   address.sin_family = AF_INET;
   const std::size_t colon = to.rfind(':');
   std::uint16_t port = 0;
-  const bool has_port = colon != std::string::npos &&
-                        std::from_chars(to.data() + colon + 1, to.data() + to.size(), port).ptr == to.data() + to.size();
+  const bool has_port =
+      colon != std::string::npos &&
+      std::from_chars(to.data() + colon + 1, to.data() + to.size(), port).ptr == to.data() + to.size();
   if (!has_port || port == 0 || ::inet_pton(AF_INET, to.substr(0, colon).c_str(), &address.sin_addr) != 1)
     return fail(ErrorCode::invalid_value, "this is no address to send to", to, "write --wake-to 255.255.255.255:9");
   address.sin_port = htons(port);

@@ -25,8 +25,8 @@ struct VisitorPanelSettings {
   std::string language = "el";  ///< the display returns to it when a visitor has gone
   AskWhen ask = AskWhen::after;
   picture::OverlayStyle style;
-  Duration home_after{0};  ///< goes home after this time without a hand's motion or a click; 0: never
-  std::string sign = "none";                     ///< none, closed, maintenance
+  Duration home_after{0};     ///< goes home after this time without a hand's motion or a click; 0: never
+  std::string sign = "none";  ///< none, closed, maintenance
   std::map<std::string, std::string> message{};  ///< the museum's words to visitors, by language; empty: none
 };
 

@@ -1,5 +1,7 @@
 // Opening hours: read from JSON, and the state at a time. Times are of Athens, whose clock is set on the last Sundays of March
 // and October.
+#include "client-sdk/gateway/opening_hours.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
@@ -8,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "client-sdk/gateway/opening_hours.hpp"
 #include "tests/support/error_like.hpp"
 
 namespace mechane::gateway {
@@ -78,7 +79,8 @@ TEST_F(OpeningHoursTest, SayWhatIsWrongAndWhere) {
   };
   EXPECT_THAT(wrong("[]"), is_error(ErrorCode::invalid_value, 0, {}));
   EXPECT_THAT(wrong(R"({"museum":{}})"), is_error(ErrorCode::invalid_value, 0, {"museum", "week"}));
-  EXPECT_THAT(wrong(R"({"museum":{"week":{"funday":[]}}})"), is_error(ErrorCode::invalid_value, 0, {"monday to sunday"}));
+  EXPECT_THAT(wrong(R"({"museum":{"week":{"funday":[]}}})"),
+              is_error(ErrorCode::invalid_value, 0, {"monday to sunday"}));
   for (const char* span : {"18:00-10:00", "10:00-24:01", "10-12", "10:00-10:00", "aa:00-12:00"})
     EXPECT_THAT(wrong(std::string(R"({"museum":{"week":{"monday":[")") + span + "\"]}}}"),
                 is_error(ErrorCode::invalid_value, 0, {"museum.week.monday"}))

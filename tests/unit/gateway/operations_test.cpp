@@ -1,4 +1,6 @@
 // What operators order: stored, read again, ended in time; and waking a machine.
+#include "client-sdk/gateway/operations.hpp"
+
 #include <array>
 #include <fstream>
 
@@ -8,7 +10,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "client-sdk/gateway/operations.hpp"
 #include "client-sdk/gateway/wake_on_lan.hpp"
 #include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -28,7 +29,8 @@ Error error_of(const Expected<T>& made) {
 OperationsState busy_state() {
   OperationsState state;
   state.next_id = 9;
-  state.hours = *parse_hours(R"({"museum":{"week":{"monday":["10:00-18:00"]}},"wake":{"kiosk-1":"02:00:5e:10:00:01"}})");
+  state.hours =
+      *parse_hours(R"({"museum":{"week":{"monday":["10:00-18:00"]}},"wake":{"kiosk-1":"02:00:5e:10:00:01"}})");
   state.messages.push_back({3, {"kiosk-1"}, {{"el", "Γεια"}, {"en", "Hello"}}, kNow + 60});
   state.maintenance = {{"kiosk-1", std::nullopt}, {"kiosk-2", kNow + 5}};
   state.changes.push_back({4, "kiosk-1", "volume", "0.2", {{"wall", "0.8"}}, kNow + 5});
@@ -48,7 +50,8 @@ TEST(OperationsFile, IsReadAsItWasWrittenAfterARestart) {
 
 TEST(OperationsFile, WhatIsDamagedIsNotTakenForNone) {
   const test::ScratchFolder folder;
-  std::ofstream(folder.path() / "operations.json") << R"({"nextId":1,"hours":{},"messages":[3],"changes":[],"maintenance":{}})";
+  std::ofstream(folder.path() / "operations.json")
+      << R"({"nextId":1,"hours":{},"messages":[3],"changes":[],"maintenance":{}})";
   EXPECT_THAT(error_of(Operations::open(folder.path())), is_error(ErrorCode::damaged, 0, {}));
   EXPECT_THAT(error_of(parse_operations("")), is_error(ErrorCode::damaged, 0, {}));
 }
@@ -122,7 +125,8 @@ TEST(Orders, SayWhatIsWrong) {
   EXPECT_THAT(message(R"({"texts":{"en":")" + std::string(241, 'x') + R"("},"minutes":1})"),
               is_error(ErrorCode::invalid_value, 0, {"240 bytes"}));
   EXPECT_THAT(message(R"({"texts":{"en":"a\nb"},"minutes":1})"), is_error(ErrorCode::invalid_value, 0, {"one line"}));
-  EXPECT_THAT(message(R"({"texts":{"en":"x"},"kiosks":["../x"],"minutes":1})"), is_error(ErrorCode::invalid_value, 0, {}));
+  EXPECT_THAT(message(R"({"texts":{"en":"x"},"kiosks":["../x"],"minutes":1})"),
+              is_error(ErrorCode::invalid_value, 0, {}));
 }
 
 TEST(WakeOnLan, SendsTheMagicPacket) {
@@ -143,8 +147,8 @@ TEST(WakeOnLan, SendsTheMagicPacket) {
   ::close(listener);
   EXPECT_EQ(packet[5], 0xFF);
   for (std::size_t i = 0; i < 16; ++i)
-    EXPECT_EQ((MacAddress{packet[6 + 6 * i], packet[7 + 6 * i], packet[8 + 6 * i], packet[9 + 6 * i], packet[10 + 6 * i],
-                          packet[11 + 6 * i]}),
+    EXPECT_EQ((MacAddress{packet[6 + 6 * i], packet[7 + 6 * i], packet[8 + 6 * i], packet[9 + 6 * i],
+                          packet[10 + 6 * i], packet[11 + 6 * i]}),
               *parse_mac("02:00:5e:10:00:01"));
   EXPECT_THAT(error_of(wake({}, "somewhere:9")), is_error(ErrorCode::invalid_value, 0, {"--wake-to"}));
 }

@@ -22,8 +22,8 @@ struct DisplaySetting {
 /// What a museum changes of a display while it runs.
 struct DisplaySettings {
   static constexpr std::size_t kMostMessage = 240;  ///< bytes of UTF-8: about 120 letters of Greek
-  double volume = 0.8;          ///< volume: 0 .. 1
-  bool muted = false;           ///< mute: on, off
+  double volume = 0.8;                              ///< volume: 0 .. 1
+  bool muted = false;                               ///< mute: on, off
   std::string language = "el";  ///< language: el, en; at the start, and again when a visitor has gone
   bool large_text = false;      ///< large-text: on, off
   bool high_contrast = false;   ///< high-contrast: on, off
