@@ -62,12 +62,30 @@ constexpr SettingKind word_setting(std::string_view name, std::string_view value
           [](const DisplaySettings& from) { return from.*kMember; }};
 }
 
+/// One line of well-formed text, or nothing.
+bool is_message(const std::string& text) {
+  return text.size() <= DisplaySettings::kMostMessage && !first_bad_utf8(text) &&
+         std::ranges::none_of(text, [](char c) { return is_control(c); });
+}
+
+template <std::string DisplaySettings::*kMember>
+constexpr SettingKind message_setting(std::string_view name) {
+  return {{name, "one line, 240 bytes at most; empty: none"},
+          [](const std::string& text, DisplaySettings& into) {
+            if (!is_message(text)) return false;
+            into.*kMember = text;
+            return true;
+          },
+          [](const DisplaySettings& from) { return from.*kMember; }};
+}
+
+constexpr std::array<std::string_view, 3> kSigns{"none", "closed", "maintenance"};
 constexpr std::array<std::string_view, 2> kLanguages{"el", "en"};
 constexpr std::array<std::string_view, 3> kAsks{"none", "after", "both"};
 constexpr std::array<std::string_view, 5> kQualities{"auto", "high", "medium", "low", "cached"};
 constexpr int kMostSeconds = static_cast<int>(kDay_s);
 
-constexpr std::array<SettingKind, 10> kSettings{{
+constexpr std::array<SettingKind, 13> kSettings{{
     number_setting<&DisplaySettings::volume, 0, 1>("volume", "0 to 1"),
     switch_setting<&DisplaySettings::muted>("mute"),
     word_setting<&DisplaySettings::language, kLanguages>("language", "el, en"),
@@ -78,6 +96,9 @@ constexpr std::array<SettingKind, 10> kSettings{{
     switch_setting<&DisplaySettings::attract>("attract"),
     number_setting<&DisplaySettings::attract_after_s, 5, kMostSeconds>("attract-after", "5 to 86400 seconds"),
     word_setting<&DisplaySettings::quality, kQualities>("quality", "auto, high, medium, low, cached"),
+    word_setting<&DisplaySettings::sign, kSigns>("sign", "none, closed, maintenance"),
+    message_setting<&DisplaySettings::message_el>("message-el"),
+    message_setting<&DisplaySettings::message_en>("message-en"),
 }};
 
 /// A name or value from outside in quotes, without characters that could drive a terminal.

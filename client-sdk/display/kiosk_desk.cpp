@@ -142,7 +142,7 @@ void KioskDesk::report(const DisplayFacts& facts, TimePoint now) {
     status.sound_problem = identity_.offscreen ? "without a window there is no sound" : "muted";
   } else {
     status.sound = facts.sound->device;
-    status.sound_problem = settings_.muted ? "muted" : facts.sound->problem;
+    status.sound_problem = settings_.silent() ? "muted" : facts.sound->problem;
   }
   status.showing = facts.attracts ? "attract" : "world";
   const log::Trouble trouble = log::trouble();

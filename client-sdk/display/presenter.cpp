@@ -85,7 +85,10 @@ picture::RenderScene Presenter::compose(TimePoint now) {
   if (step_view_.is_narrow() && !scene.inset && invitation == nullptr)
     scene.inset = picture::Inset{scene.camera, visitor_.language() == "el" ? "Ολόκληρη η μηχανή" : "The whole machine"};
   place_camera(scene);
-  if (invitation != nullptr) return scene;
+  if (invitation != nullptr) {
+    scene.overlay.message = visitor_.message();
+    return scene;
+  }
   if (shows_live_world()) scene.overlay.pose = news_.calibration().at(now, visitor_.language());
   visitor_.write(scene, last_picture(), now);
   name_what_is_meant(scene);

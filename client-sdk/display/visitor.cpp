@@ -60,7 +60,8 @@ void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now
 bool Visitor::invite(const client::DisplaySettings& settings, TimePoint now) {
   if (attract_ == nullptr) return false;
   const std::chrono::duration<double> alone = panel_.alone_for(now);
-  const bool before = std::exchange(invites_, settings.attract && alone.count() >= settings.attract_after_s);
+  const bool waited = settings.attract && alone.count() >= settings.attract_after_s;
+  const bool before = std::exchange(invites_, waited && !panel_.has_sign());
   if (!invites_) return before;
   if (!before) attract_->rewind();
   return attract_->advance(now) || !before;

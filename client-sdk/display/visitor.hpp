@@ -44,6 +44,8 @@ class Visitor {
   [[nodiscard]] AttractLoop* invitation() const { return invites_ ? attract_.get() : nullptr; }
   /// Language of all words in the picture.
   [[nodiscard]] const std::string& language() const { return language_; }
+  /// The museum's words to visitors; empty: none.
+  [[nodiscard]] std::string message() const { return panel_.message(); }
   [[nodiscard]] const picture::OverlayStyle& style() const { return panel_.settings().style; }
   /// The thing that the pointer would take, or else is on.
   [[nodiscard]] std::optional<picture::Touched> pointed_at() const {

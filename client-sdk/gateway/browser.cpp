@@ -102,10 +102,12 @@ void Browser::take(const PointerMessage& message) {
     return one.event.kind != Kind::left && one.event.kind != Kind::gone;
   };
   if (std::ranges::any_of(message.events, presses)) panel_.touch(time_now());
+  if (panel_.has_sign()) return hand_.release();
   hand_.take(message, hub_->world());
 }
 
 void Browser::take(const PressMessage& message) {
+  if (panel_.has_sign()) return;
   const bool begins = message.action.kind == picture::OverlayAction::Kind::activity && hub_->status() != nullptr &&
                       std::ranges::count(hub_->status()->activities, message.action.value) > 0;
   if (begins) (void)hub_->client()->start_activity(message.action.value);
@@ -123,7 +125,7 @@ void Browser::take(const LanguageMessage& message) {
 void Browser::take(const ClickMessage& message) {
   panel_.touch(time_now());
   const client::SceneObject* object = pointer::object_of(hub_->world().objects, message.object);
-  if (object != nullptr && hub_->client() != nullptr) (void)hub_->client()->click(object->name);
+  if (object != nullptr && hub_->client() != nullptr && !panel_.has_sign()) (void)hub_->client()->click(object->name);
 }
 
 void Browser::take(const SettingsMessage& message) {
@@ -214,6 +216,7 @@ void Browser::answer_requests() {
     } else {
       settings_ = wanted;
       panel_.change(visit::panel_settings(settings_));
+      if (panel_.has_sign()) hand_.release();
       say("settings", settings_text(settings_));
     }
     answers_.push_back(std::move(answer));
@@ -251,7 +254,7 @@ void Browser::report(TimePoint now) {
   out.missing.assign(status_.missing.begin(),
                      status_.missing.begin() + static_cast<long>(std::min(kMissingTold, status_.missing.size())));
   out.renderer = status_.renderer.empty() ? "a browser" : status_.renderer;
-  out.sound_problem = settings_.muted ? "muted" : "";
+  out.sound_problem = settings_.silent() ? "muted" : "";
   out.showing = "world";
   out.settings = client::settings_of(shown_settings());
   out.answers = answers_;

@@ -212,6 +212,7 @@ std::string overlay_text(const BrowserWords& words) {
                   {"subtitle", words.subtitle},
                   {"hint", content.hint},
                   {"note", content.note},
+                  {"message", content.message},
                   {"goal", content.goal},
                   {"notice", notice},
                   {"steps", {{"done", content.steps_done}, {"total", content.steps_total}}},
@@ -252,7 +253,7 @@ std::string event_text(const client::WorldEvent& event) {
 
 std::string settings_text(const client::DisplaySettings& settings) {
   return written(
-      {{"type", "settings"}, {"volume", settings.volume}, {"mute", settings.muted}, {"quality", settings.quality}});
+      {{"type", "settings"}, {"volume", settings.volume}, {"mute", settings.silent()}, {"quality", settings.quality}});
 }
 
 std::string bye_text(const std::string& reason, const std::string& remedy) {

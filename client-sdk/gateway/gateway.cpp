@@ -72,13 +72,15 @@ Expected<void> run_gateway(GatewayOptions options) {
   auto accounts = Accounts::open(options.state);
   if (!accounts) return tl::unexpected(accounts.error());
   const std::string first_password = accounts->first_password();
+  auto operations = Operations::open(options.state);
+  if (!operations) return tl::unexpected(operations.error());
   auto server = WebServer::open(options.web);
   if (!server) return tl::unexpected(server.error());
   auto seats = client::DisplaySeats::open(options.domain);
   if (!seats) return tl::unexpected(seats.error());
   auto watch = client::DisplayWatch::open(options.domain);
   if (!watch) return tl::unexpected(watch.error());
-  GatewaySite site(options, **server, std::move(*accounts), **seats, **watch);
+  GatewaySite site(options, **server, std::move(*accounts), std::move(*operations), **seats, **watch);
   (*server)->every(kTick, [&site] { site.tick(); });
   print_addresses(site, origin_of(options, (*server)->port()), first_password);
   (*server)->run(site);

@@ -14,10 +14,11 @@ struct GatewayOptions {
   WebServerOptions web;
   std::uint32_t domain = 0;
   std::filesystem::path app;      ///< folder of the built web app; empty: there is none
-  std::filesystem::path state;    ///< accounts, certificate, audit log; made where it is missing
+  std::filesystem::path state;    ///< accounts, certificate, audit log, orders; made where it is missing
   std::filesystem::path records;  ///< the server's; empty: no visits are shown
   std::vector<std::string> kiosks{"kiosk-1"};
-  bool plain = false;  ///< beyond this machine without TLS, too
+  bool plain = false;                         ///< beyond this machine without TLS, too
+  std::string wake_to = "255.255.255.255:9";  ///< where packets go that wake kiosks
   Duration token_idle = std::chrono::minutes(30);
 };
 

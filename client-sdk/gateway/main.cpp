@@ -35,6 +35,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--token-idle", a.token_idle_minutes, "minutes without a touch after which a kiosk's address ends")
       ->check(CLI::Range(0.05, 1440.0))
       ->capture_default_str();
+  app.add_option("--wake-to", o.wake_to, "where packets go that wake kiosks at opening: a network's broadcast address")
+      ->capture_default_str();
   app.add_option("--most-connections", o.web.most_sockets, "at a time; further ones are refused")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/operations_api.hpp"
 #include "client-sdk/gateway/request_path.hpp"
 #include "client-sdk/gateway/secrets.hpp"
 #include "client-sdk/gateway/security_headers.hpp"
@@ -60,6 +61,7 @@ ApiJson display_json(const DisplayStatus& display) {
           {"framesLost", display.frames_lost},
           {"missing", display.missing},
           {"renderer", display.renderer},
+          {"offscreen", display.offscreen},
           {"sound", display.sound},
           {"soundProblem", display.sound_problem},
           {"showing", display.showing},
@@ -324,8 +326,11 @@ ApiJson accounts_json(const Accounts& accounts) {
 }
 
 bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::string& verb, const ApiJson& json,
-                   const Done& done) {
-  if (!site.knows_kiosk(kiosk)) return done(unknown_kiosk(kiosk)), true;
+                   const std::string& body, const Done& answer) {
+  if (!site.knows_kiosk(kiosk)) return answer(unknown_kiosk(kiosk)), true;
+  const auto until_then = with_end(site, kiosk, verb, body, answer);
+  if (!until_then) return answer(refusal(until_then.error())), true;
+  const Done& done = *until_then;
   if (verb == "open") {
     const auto scenario = stated(json, "scenario");
     if (!scenario) return done(refusal(400, "no scenario is named", R"(send {"scenario":""} for home)")), true;
@@ -338,6 +343,10 @@ bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::strin
 
 }  // namespace
 
+void open_at_kiosk(GatewaySite& site, const std::string& kiosk, const std::string& scenario, const Done& done) {
+  open_exhibit(site, kiosk, scenario, done);
+}
+
 bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest& request, const Done& done) {
   if (session.role == Role::visitor) return done(not_allowed("author or operator")), true;
   const std::string& path = request.path;
@@ -349,6 +358,7 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
     return done(json_answer({{"kiosks", list}})), true;
   }
   if (path == "/api/server") return answer_server(site, done), true;
+  if (path == "/api/operations") return done(operations_answer(site)), true;
   if (path == "/api/visits") return answer_visits(site, request, done), true;
   const bool for_operators = path == "/api/audit" || path == "/api/accounts";
   if (!for_operators) return false;
@@ -375,12 +385,13 @@ bool answer_api_post(GatewaySite& site, const Session& session, const HttpReques
     site.sessions().end_of(user);
     return done(json_answer(ApiJson::object())), true;
   }
+  if (answer_operations_post(site, request, done)) return true;
   constexpr std::string_view kKiosks = "/api/kiosks/";
   if (!request.path.starts_with(kKiosks)) return false;
   const std::string rest = request.path.substr(kKiosks.size());
   const std::size_t slash = rest.find('/');
   if (slash == std::string::npos) return false;
-  return post_to_kiosk(site, rest.substr(0, slash), rest.substr(slash + 1), json, done);
+  return post_to_kiosk(site, rest.substr(0, slash), rest.substr(slash + 1), json, request.body, done);
 }
 
 }  // namespace mechane::gateway

@@ -39,6 +39,19 @@ HttpAnswer no_way_in() {
                  "scan the kiosk's code again, or ask the museum's staff");
 }
 
+/// For whoever scans a kiosk's code meanwhile; the page comes back by itself.
+HttpAnswer maintenance_page() {
+  HttpAnswer answer = answer_with(
+      "<!doctype html><html lang=\"el\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
+      "<title>Mechane</title><h1>Υπό συντήρηση</h1><p>Αυτό το έκθεμα συντηρείται. Παρακαλούμε ελάτε ξανά αργότερα.</p>"
+      "<div lang=\"en\"><h1>Under maintenance</h1><p>This exhibit is being looked after. Please come back "
+      "later.</p></div>",
+      "text/html; charset=utf-8", 503);
+  answer.headers.emplace_back("Cache-Control", "no-store");
+  answer.headers.emplace_back("Refresh", "30");
+  return answer;
+}
+
 /// What stands behind a prefix of a path; none: the path begins otherwise.
 std::optional<std::string> after(const std::string& path, std::string_view prefix) {
   if (!path.starts_with(prefix)) return std::nullopt;
@@ -51,12 +64,13 @@ SiteJson of_session(const Session& session) {
 
 }  // namespace
 
-GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accounts accounts,
+GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accounts accounts, Operations operations,
                          client::DisplaySeats& seats, client::DisplayWatch& watch)
     : options_(options),
       server_(server),
       watch_(watch),
       accounts_(std::move(accounts)),
+      operations_(std::move(operations)),
       tokens_(options.token_idle),
       audit_(options.state),
       backstage_{options.domain, slow_,    [&server](std::function<void()> job) { server.post(std::move(job)); },
@@ -97,6 +111,9 @@ void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
   const bool page = request.path == "/" || request.path == "/console" || request.path.starts_with("/console/") ||
                     request.path.starts_with("/kiosk/");
   if (!page) return done(nothing_here());
+  if (const auto kiosk = after(request.path, "/kiosk/");
+      kiosk && session_of(request) == nullptr && in_maintenance(operations_.state(), *kiosk, wall_now()))
+    return done(maintenance_page());
   std::error_code unknown;
   if (!std::filesystem::exists(options_.app / "index.html", unknown))
     return done(refusal(503, "the web app is not built", "build it, or name its folder with --app"));
@@ -229,6 +246,10 @@ bool GatewaySite::note(const Session& session, const HttpRequest& request, std::
   return written.has_value();
 }
 
+void GatewaySite::note_own(std::string_view action, std::string_view detail) {
+  if (auto written = audit_.add("gateway", "", action, detail); !written) log::error(written.error());
+}
+
 std::variant<HttpAnswer, std::shared_ptr<SocketUser>> GatewaySite::join(const HttpRequest& request) {
   if (!is_own_origin(request.header("origin"), request.header("host"), request.secure))
     return refusal(403, "this WebSocket comes from another page", "use the gateway's own pages");
@@ -239,6 +260,9 @@ std::variant<HttpAnswer, std::shared_ptr<SocketUser>> GatewaySite::join(const Ht
   const bool by_token = tokens_.opens(token, *kiosk, site_now());
   if (!by_token && session_of(request) == nullptr) return no_way_in();
   if (!by_token && !knows_kiosk(*kiosk)) return refusal(404, "there is no kiosk of this name", "see /console");
+  // A tablet that is signed in shows the sign; nobody else comes in meanwhile.
+  if (by_token && session_of(request) == nullptr && in_maintenance(operations_.state(), *kiosk, wall_now()))
+    return refusal(503, "this kiosk is under maintenance", "come back later");
   const auto hub = hub_of(*kiosk);
   if (!hub) return refusal(503, "too many kiosks are in use", "try again later");
   if (by_token) tokens_.use(token, site_now());
@@ -288,6 +312,7 @@ void GatewaySite::tick() {
     hub->tick(now);
   if (now < next_look_) return;
   next_look_ = now + kLookAgain;
+  keeper_.tick(*this, wall_now(), now);
   std::erase_if(hubs_, [now](const auto& entry) { return now - entry.second->used() > kHubStays; });
   for (std::size_t count = waiting_.size(); count > 0; --count) {
     Waiting one = std::move(waiting_.front());

@@ -15,14 +15,16 @@
 #include "client-sdk/gateway/file_store.hpp"
 #include "client-sdk/gateway/gateway.hpp"
 #include "client-sdk/gateway/kiosk_hub.hpp"
+#include "client-sdk/gateway/kiosk_keeper.hpp"
+#include "client-sdk/gateway/operations.hpp"
 #include "client-sdk/gateway/sessions.hpp"
 
 namespace mechane::gateway {
 
 class GatewaySite final : public Site {
  public:
-  GatewaySite(const GatewayOptions& options, WebServer& server, Accounts accounts, client::DisplaySeats& seats,
-              client::DisplayWatch& watch);
+  GatewaySite(const GatewayOptions& options, WebServer& server, Accounts accounts, Operations operations,
+              client::DisplaySeats& seats, client::DisplayWatch& watch);
   ~GatewaySite() override;
 
   void answer(HttpRequest request, Done done) override;
@@ -51,7 +53,10 @@ class GatewaySite final : public Site {
   /// Writes the audit log. False, after telling it in the log: it cannot be written, so that nothing may be done.
   [[nodiscard]] bool note(const Session& session, const HttpRequest& request, std::string_view action,
                           std::string_view detail);
+  /// The same for what the gateway does by itself, as operators have ordered it.
+  void note_own(std::string_view action, std::string_view detail);
   [[nodiscard]] Accounts& accounts() { return accounts_; }
+  [[nodiscard]] Operations& operations() { return operations_; }
   [[nodiscard]] Sessions& sessions() { return sessions_; }
   /// Hashes or checks a password on a thread of its own. False: too many are waiting.
   [[nodiscard]] bool on_passwords(std::function<std::function<void()>()> work);
@@ -77,6 +82,8 @@ class GatewaySite final : public Site {
   WebServer& server_;
   client::DisplayWatch& watch_;
   Accounts accounts_;
+  Operations operations_;
+  KioskKeeper keeper_;
   Sessions sessions_;
   SignInGuard guard_;
   KioskTokens tokens_;

@@ -77,6 +77,7 @@ struct OverlayContent {
   std::string hint;
   std::string note;                       ///< a calm note about the link, such as "The exhibit is getting ready …"
   std::optional<OverlayNotice> notice{};  ///< instead of the note
+  std::string message{};  ///< the museum's words to visitors, where the note would be while there is none
   std::uint32_t steps_done = 0;
   std::uint32_t steps_total = 0;
   std::vector<Readout> readouts;

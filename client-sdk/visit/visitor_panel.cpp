@@ -12,6 +12,7 @@ namespace {
 
 struct PanelWords {
   std::string_view village, home, skip, close, thanks, farewell, going_home;
+  std::string_view closed, closed_more, maintenance, maintenance_more;
 };
 
 /// The display's own texts, in two languages; a world may have more.
@@ -22,14 +23,22 @@ const PanelWords& words_in(const std::string& language) {
                                    "Close",
                                    "Thank you!",
                                    "Your answers help us to make this exhibit better.",
-                                   "Is anybody here? Back to the beginning in {} s"};
+                                   "Is anybody here? Back to the beginning in {} s",
+                                   "Closed",
+                                   "This exhibit is closed now. Thank you for your visit!",
+                                   "Under maintenance",
+                                   "This exhibit is being looked after. Please come back later."};
   static const PanelWords kGreek{"Χωριό",
                                  "Αρχή",
                                  "Παράλειψη",
                                  "Κλείσιμο",
                                  "Ευχαριστούμε!",
                                  "Οι απαντήσεις σας μας βοηθούν να κάνουμε το έκθεμα καλύτερο.",
-                                 "Είναι κανείς εδώ; Επιστροφή στην αρχή σε {} δ."};
+                                 "Είναι κανείς εδώ; Επιστροφή στην αρχή σε {} δ.",
+                                 "Κλειστό",
+                                 "Αυτό το έκθεμα είναι τώρα κλειστό. Ευχαριστούμε για την επίσκεψή σας!",
+                                 "Υπό συντήρηση",
+                                 "Αυτό το έκθεμα συντηρείται. Παρακαλούμε ελάτε ξανά αργότερα."};
   return language == "el" ? kGreek : kEnglish;
 }
 
@@ -76,10 +85,14 @@ AskWhen ask_when(const std::string& name) {
 }
 
 VisitorPanelSettings panel_settings(const client::DisplaySettings& settings) {
-  return {settings.language,
-          ask_when(settings.ask),
-          {settings.large_text ? picture::kLargeText : 1.0F, settings.high_contrast},
-          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s))};
+  VisitorPanelSettings out{settings.language,
+                           ask_when(settings.ask),
+                           {settings.large_text ? picture::kLargeText : 1.0F, settings.high_contrast},
+                           std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.home_after_s)),
+                           settings.sign};
+  if (!settings.message_el.empty()) out.message["el"] = settings.message_el;
+  if (!settings.message_en.empty()) out.message["en"] = settings.message_en;
+  return out;
 }
 
 VisitorPanel::VisitorPanel(VisitorPanelSettings settings)
@@ -278,9 +291,24 @@ picture::OverlayPanel VisitorPanel::panel_of(const client::Activity& activity) c
   return panel;
 }
 
+std::string VisitorPanel::message() const {
+  return text_in(settings_.message, language_);
+}
+
 void VisitorPanel::write(picture::OverlayContent& content, TimePoint now) const {
   content.style = settings_.style;
   const PanelWords& words = words_in(language_);
+  if (has_sign()) {
+    picture::OverlayPanel panel;
+    panel.title = settings_.sign == "closed" ? words.closed : words.maintenance;
+    panel.text = settings_.sign == "closed" ? words.closed_more : words.maintenance_more;
+    panel.more = message();
+    content = {};
+    content.style = settings_.style;
+    content.panel = std::move(panel);
+    return;
+  }
+  content.message = message();
   if (!home_.empty()) {
     const std::string_view word = home_ == "village" ? words.village : words.home;
     content.corner.push_back(panel_button(picture::OverlayAction::Kind::home, word));

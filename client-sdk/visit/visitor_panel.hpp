@@ -25,7 +25,9 @@ struct VisitorPanelSettings {
   std::string language = "el";  ///< the display returns to it when a visitor has gone
   AskWhen ask = AskWhen::after;
   picture::OverlayStyle style;
-  Duration home_after{0};  ///< goes home after this time without a hand's motion or a click; 0: never
+  Duration home_after{0};     ///< goes home after this time without a hand's motion or a click; 0: never
+  std::string sign = "none";  ///< none, closed, maintenance
+  std::map<std::string, std::string> message{};  ///< the museum's words to visitors, by language; empty: none
 };
 
 /// As a technician has set them for a display.
@@ -84,7 +86,11 @@ class VisitorPanel {
 
   /// Code of the present language of all texts.
   [[nodiscard]] const std::string& language() const { return language_; }
-  /// Adds what is offered now.
+  /// A sign stands instead of all other words: no visitor can do anything here.
+  [[nodiscard]] bool has_sign() const { return settings_.sign != "none"; }
+  /// The museum's words to visitors, in the present language; empty: none.
+  [[nodiscard]] std::string message() const;
+  /// Adds what is offered now, and the museum's message or sign. Call it last: a sign takes other words away.
   void write(picture::OverlayContent& content, TimePoint now) const;
   [[nodiscard]] VisitorRequests take_requests() { return std::exchange(requests_, {}); }
 

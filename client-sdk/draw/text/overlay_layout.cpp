@@ -187,7 +187,8 @@ Note measure_note(const Page& page, const picture::OverlayContent& content, floa
   if (content.notice) return measure_notice(page, *content.notice, most);
   Note note;
   const float padding = page.tx(20);
-  note.lines = page.lines(Face::regular, kNoteSize, content.note, most - 2 * padding);
+  note.lines =
+      page.lines(Face::regular, kNoteSize, content.note.empty() ? content.message : content.note, most - 2 * padding);
   if (note.lines.empty()) return note;
   note.width = widest(page, Face::regular, kNoteSize, note.lines) + 2 * padding;
   note.height = page.tx(18) + static_cast<float>(note.lines.size()) * page.tx(28);

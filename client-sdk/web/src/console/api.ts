@@ -15,6 +15,9 @@ export interface DisplayInfo {
   height: number;
   missing: string[];
   warning: string;
+  uptime: number;
+  offscreen: boolean;
+  soundProblem: string;
   settings: Record<string, string>;
 }
 export interface KioskInfo {
@@ -32,17 +35,21 @@ export interface ServerInfo {
   users: number;
   overruns: number;
   tickUsP99: number;
+  wakeUsP99: number;
+  lateWakeups: number;
+  inputGaps: number;
+  inputGapMs: number;
   realtime: boolean;
   recordsOk: boolean;
   overload: string;
   scenarios: string[];
 }
 
-type Fields = Record<string, unknown>;
-const fields = (v: unknown): Fields => (typeof v === 'object' && v !== null ? (v as Fields) : {});
-const list = (v: unknown): unknown[] => (Array.isArray(v) ? v : []);
-const text = (v: unknown): string => (typeof v === 'string' ? v : '');
-const number = (v: unknown): number => (typeof v === 'number' && Number.isFinite(v) ? v : 0);
+export type Fields = Record<string, unknown>;
+export const fields = (v: unknown): Fields => (typeof v === 'object' && v !== null ? (v as Fields) : {});
+export const list = (v: unknown): unknown[] => (Array.isArray(v) ? v : []);
+export const text = (v: unknown): string => (typeof v === 'string' ? v : '');
+export const number = (v: unknown): number => (typeof v === 'number' && Number.isFinite(v) ? v : 0);
 
 export class ApiError extends Error {
   constructor(
@@ -82,11 +89,12 @@ export class Api {
   async kiosks(): Promise<KioskInfo[]> {
     return list(fields(await this.json('GET', '/api/kiosks')).kiosks).map(kioskOf);
   }
-  async open(kiosk: string, scenario: string): Promise<void> {
-    await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/open`, { scenario });
+  /** `end`: see operations.ts. */
+  async open(kiosk: string, scenario: string, end: object = {}): Promise<void> {
+    await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/open`, { scenario, ...end });
   }
-  async set(kiosk: string, display: string, settings: Record<string, string>): Promise<void> {
-    const said = fields(await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/settings`, { display, settings }));
+  async set(kiosk: string, display: string, settings: Record<string, string>, end: object = {}): Promise<void> {
+    const said = fields(await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/settings`, { display, settings, ...end }));
     const refused = list(said.answers).map(fields).find((answer) => text(answer.refusal) !== '');
     if (refused) throw new ApiError(409, `${text(refused.display)}: ${text(refused.refusal)}.`, '');
   }
@@ -94,7 +102,7 @@ export class Api {
     return (await this.send('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/picture`, { display })).blob();
   }
 
-  private async json(method: string, path: string, body?: object): Promise<unknown> {
+  async json(method: string, path: string, body?: object): Promise<unknown> {
     const answer = await this.send(method, path, body);
     return answer.status === 204 ? {} : answer.json();
   }
@@ -125,6 +133,10 @@ export function serverOf(v: unknown): ServerInfo {
     users: number(s.users),
     overruns: number(s.overruns),
     tickUsP99: number(fields(s.tickUs).p99),
+    wakeUsP99: number(fields(s.wakeUs).p99),
+    lateWakeups: number(s.lateWakeups),
+    inputGaps: number(s.inputGaps),
+    inputGapMs: number(s.inputGapMs),
     realtime: s.realtime === true,
     recordsOk: s.recordsOk !== false,
     overload: text(s.overload),
@@ -147,6 +159,9 @@ function displayOf(v: unknown): DisplayInfo {
     height: number(d.height),
     missing: list(d.missing).map(text),
     warning: text(d.refusal) || text(d.lastWarning),
+    uptime: number(d.uptime),
+    offscreen: d.offscreen === true,
+    soundProblem: text(d.soundProblem),
     settings: Object.fromEntries(Object.entries(fields(d.settings)).map(([name, value]) => [name, text(value)])),
   };
 }

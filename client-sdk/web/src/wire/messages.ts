@@ -113,6 +113,8 @@ export interface Overlay {
   subtitle: string;
   hint: string;
   note: string;
+  /** The museum's words to visitors. */
+  message: string;
   goal: string;
   notice: Notice | null;
   steps: { done: number; total: number };
@@ -305,6 +307,7 @@ function overlayOf(m: Fields): Overlay {
     subtitle: text(m.subtitle),
     hint: text(m.hint),
     note: text(m.note),
+    message: text(m.message),
     goal: text(m.goal),
     notice: notice && { sign: text(notice.sign) as Notice['sign'], text: text(notice.text), more: text(notice.more) },
     steps: { done: number(fields(m.steps).done), total: number(fields(m.steps).total) },

@@ -21,8 +21,9 @@ struct DisplaySetting {
 
 /// What a museum changes of a display while it runs.
 struct DisplaySettings {
-  double volume = 0.8;          ///< volume: 0 .. 1
-  bool muted = false;           ///< mute: on, off
+  static constexpr std::size_t kMostMessage = 240;  ///< bytes of UTF-8: about 120 letters of Greek
+  double volume = 0.8;                              ///< volume: 0 .. 1
+  bool muted = false;                               ///< mute: on, off
   std::string language = "el";  ///< language: el, en; at the start, and again when a visitor has gone
   bool large_text = false;      ///< large-text: on, off
   bool high_contrast = false;   ///< high-contrast: on, off
@@ -31,6 +32,13 @@ struct DisplaySettings {
   bool attract = true;          ///< attract: on, off; shows the recorded visit, if one was given, while nobody is there
   double attract_after_s = 120;  ///< attract-after: 5 .. 86400 s without a visitor
   std::string quality = "auto";  ///< quality: auto, high, medium, low, cached
+  /// sign: none, closed, maintenance; where there is one, it is all that visitors are told: no sound is heard, and the
+  /// display takes no hand.
+  std::string sign = "none";
+  std::string message_el{};  ///< message-el, message-en: the museum's words to visitors, kMostMessage bytes at most
+  std::string message_en{};
+  /// A display with a sign is silent.
+  [[nodiscard]] bool silent() const { return muted || sign != "none"; }
   friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
 };
 

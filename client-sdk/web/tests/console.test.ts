@@ -1,0 +1,40 @@
+import { expect, it, vi } from 'vitest';
+import { Api, kioskOf, serverOf } from '../src/console/api';
+import { faultsOf } from '../src/console/faults';
+import { bytesOf, hoursFrom, operationsOf, orders } from '../src/console/operations';
+
+const answer = (status: number, body: unknown): Response => new Response(JSON.stringify(body), { status });
+
+it('a fault has its place and a remedy, and a healthy museum has none', () => {
+  const healthy = serverOf({ server: 's', realtime: true, recordsOk: true, wakeUs: { p99: 40 } });
+  const display = { display: 'wall', link: 1, picturesPerS: 30, settings: {} };
+  expect(faultsOf(healthy, [kioskOf({ kiosk: 'k', displays: [display] })])).toEqual([]);
+  const ill = serverOf({ server: 's', realtime: false, recordsOk: false, overload: 'too many worlds', wakeUs: { p99: 900 }, inputGapMs: 60 });
+  const lost = kioskOf({ kiosk: 'k', displays: [{ ...display, link: 3, picturesPerS: 5, missing: ['a.glb'], lastWarning: 'disk' }] });
+  const faults = faultsOf(ill, [lost]);
+  expect(faults.map((f) => f.where)).toEqual([...Array<string>(5).fill('Server'), ...Array<string>(4).fill('k, wall')]);
+  expect(faults.every((f) => f.remedy !== '')).toBe(true);
+  expect(faultsOf(serverOf(null), []).length).toBe(1);
+});
+
+it('hours are sent as they are written, without blanks', () => {
+  expect(hoursFrom(' 09:00 – 13:00, 17:00-24:00 ,')).toEqual(['09:00-13:00', '17:00-24:00']);
+  expect(hoursFrom('')).toEqual([]);
+  expect(bytesOf('Γειά')).toBe(8);
+});
+
+it('reads what is ordered, whatever is missing', () => {
+  const read = operationsOf({ zone: 'EET', hours: { museum: { week: { monday: ['10:00-18:00'] } }, wake: { k: 'm' } }, maintenance: { k: null, j: 5 } });
+  expect(read.hours.museum?.week.monday).toEqual(['10:00-18:00']);
+  expect(read.hours.museum?.week.sunday).toEqual([]);
+  expect(read.maintenance).toEqual({ k: null, j: 5 });
+  expect(() => [operationsOf(null), operationsOf({ messages: [3], changes: 'x', kiosks: {} })]).not.toThrow();
+});
+
+it('says until when, and is content with a gateway without records', async () => {
+  const ask = vi.fn<typeof fetch>(async () => answer(200, {}));
+  await orders(new Api(ask)).maintain('kiosk-1', true, { minutes: 15 });
+  expect(ask.mock.calls[0]![0]).toBe('/api/kiosks/kiosk-1/maintenance');
+  expect(ask.mock.calls[0]![1]!.body).toBe('{"on":true,"minutes":15}');
+  expect(await orders(new Api(async () => answer(404, { error: 'no records' }))).visits()).toBeNull();
+});
