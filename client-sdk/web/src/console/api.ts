@@ -1,5 +1,7 @@
 // The gateway's JSON API, as the console uses it. An error is a sentence: what happened, and what to do.
 
+import { remarksOf, visitsAddress, visitsOf, type Remark, type VisitsFigures, type VisitsQuery } from './visits';
+
 export interface User {
   user: string;
   role: string;
@@ -92,6 +94,14 @@ export class Api {
   }
   async picture(kiosk: string, display: string): Promise<Blob> {
     return (await this.send('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/picture`, { display })).blob();
+  }
+  async visits(query: VisitsQuery): Promise<VisitsFigures> {
+    return visitsOf(await this.json('GET', visitsAddress('/api/visits', query)));
+  }
+  /** All remarks of the visit. `at`: seconds since it began, or null. */
+  async remark(visit: string, text: string, at: number | null): Promise<Remark[]> {
+    const said = await this.json('POST', `/api/visits/${encodeURIComponent(visit)}/remarks`, at === null ? { text } : { text, at });
+    return remarksOf(fields(said).remarks);
   }
 
   private async json(method: string, path: string, body?: object): Promise<unknown> {
