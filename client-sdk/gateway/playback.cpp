@@ -15,7 +15,7 @@ namespace {
 using std::chrono::seconds;
 
 constexpr std::string_view kPlaybackSpeed = "6";  // frames come 62.5 times a second, and are looked for 200 times
-constexpr auto kLongestPlayback = std::chrono::minutes(5);
+constexpr auto kLongestPlayback = std::chrono::minutes(15);  // with what the world did before the visit
 constexpr std::uint64_t kMostOfChild = 64 * 1024;
 constexpr Duration kStaysUnasked = seconds(10);
 constexpr Duration kTapeStays = std::chrono::minutes(10);
@@ -61,15 +61,10 @@ Playback::Playback(const visits::VisitRecord& visit, const GatewayOptions& optio
       kiosk_("play-" + visit.number),
       domain_(domain),
       scenario_(options.scenarios / visit.scenario / (visit.scenario + ".x3d")),
-      backstage_(backstage) {
-  const std::vector<std::string> arguments{options.records.string(), "--visit",    visit.number,          "--scenario",
-                                           scenario_.string(),       "--show-in",  std::to_string(domain), "--show-to",
-                                           kiosk_,                   "--speed",    std::string(kPlaybackSpeed)};
-  thread_ = std::make_unique<Worker>("gateway-play");
-  child_ = thread_->ask([arguments, stop = stop_.get_token()] {
-    return content::run_child(program_folder() / "mechane-replay", arguments, kLongestPlayback, kMostOfChild, stop);
-  });
-}
+      backstage_(backstage),
+      arguments_{
+          options.records.string(), "--visit",   visit.number, "--scenario", scenario_.string(),         "--show-in",
+          std::to_string(domain),   "--show-to", kiosk_,       "--speed",    std::string(kPlaybackSpeed)} {}
 
 Playback::~Playback() {
   stop_.request_stop();
@@ -78,6 +73,14 @@ Playback::~Playback() {
 }
 
 void Playback::open() {
+  thread_ = std::make_unique<Worker>("gateway-play");
+  thread_->give([arguments = arguments_, stop = stop_.get_token(), weak = weak_from_this(), post = backstage_.post] {
+    const auto child = std::make_shared<const Expected<content::ChildResult>>(
+        content::run_child(program_folder() / "mechane-replay", arguments, kLongestPlayback, kMostOfChild, stop));
+    post([weak, child] {
+      if (const auto alive = weak.lock()) alive->end(*child);
+    });
+  });
   client::ClientConfig config;
   config.kiosk = kiosk_;
   config.program = "mechane-gateway";
@@ -99,7 +102,6 @@ void Playback::tick() {
     take_frame();
   }
   if (!writer_.goes_on()) stop_.request_stop();
-  if (is_ready(child_)) end(child_.get());
 }
 
 /// Each text is of the moment of the next frame.

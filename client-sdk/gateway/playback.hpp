@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "client-sdk/gateway/backstage.hpp"
 #include "client-sdk/gateway/frame_bytes.hpp"
@@ -59,6 +59,7 @@ class Playback : public std::enable_shared_from_this<Playback> {
   /// Call it two hundred times a second.
   void tick();
 
+  [[nodiscard]] const visits::VisitRecord& visit() const { return visit_; }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] std::uint32_t domain() const { return domain_; }
   /// How much of the visit is on the tape, 0 to 1.
@@ -78,6 +79,7 @@ class Playback : public std::enable_shared_from_this<Playback> {
   const std::uint32_t domain_;
   const std::filesystem::path scenario_;
   const Backstage backstage_;
+  const std::vector<std::string> arguments_;
   State state_ = State::preparing;
   std::string trouble_;
   std::shared_ptr<const std::string> tape_;
@@ -87,7 +89,6 @@ class Playback : public std::enable_shared_from_this<Playback> {
   client::Frame frame_;
   std::uint64_t sequence_ = 0;
   std::stop_source stop_;
-  std::future<Expected<content::ChildResult>> child_;
   std::unique_ptr<Worker> thread_;
 };
 

@@ -3,8 +3,6 @@
 #include <array>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "client-sdk/gateway/visits_json.hpp"
 #include "server/visits/visit_csv.hpp"
 #include <mechane/proto/names.hpp>
@@ -28,7 +26,8 @@ HttpAnswer figures(const VisitsFound& found) {
 }
 
 HttpAnswer spreadsheet(const VisitsFound& found) {
-  HttpAnswer answer = not_kept(answer_with(visits::visits_csv(found.records), "text/csv; charset=utf-8; header=present"));
+  HttpAnswer answer =
+      not_kept(answer_with(visits::visits_csv(found.records), "text/csv; charset=utf-8; header=present"));
   answer.headers.emplace_back("Content-Disposition", R"(attachment; filename="visits.csv")");
   return answer;
 }
@@ -36,7 +35,8 @@ HttpAnswer spreadsheet(const VisitsFound& found) {
 /// Of "/api/visits/k7m2-9qxd-4tz0/remarks": the number, where the path ends so.
 std::optional<std::string> visit_in(const std::string& path, std::string_view verb) {
   const std::size_t head = kVisitsPath.size() + 1;
-  if (!path.starts_with("/api/visits/") || !path.ends_with(verb) || path.size() < head + verb.size()) return std::nullopt;
+  if (!path.starts_with("/api/visits/") || !path.ends_with(verb) || path.size() < head + verb.size())
+    return std::nullopt;
   return path.substr(head, path.size() - head - verb.size());
 }
 
@@ -46,10 +46,9 @@ HttpAnswer no_playback() {
 
 HttpAnswer playback_answer(const Playback& playback) {
   constexpr std::array<const char*, 3> kWords{"preparing", "ready", "failed"};
-  const nlohmann::json json{{"state", kWords[static_cast<std::size_t>(playback.state())]},
-                            {"share", playback.share()},
-                            {"trouble", playback.trouble()}};
-  return not_kept(answer_with(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json"));
+  return not_kept(answer_with(playback_json(playback.visit(), kWords[static_cast<std::size_t>(playback.state())],
+                                            playback.share(), playback.trouble()),
+                              "application/json"));
 }
 
 HttpAnswer tape_answer(const Playback& playback) {
@@ -93,8 +92,7 @@ bool answer_visits_get(GatewaySite& site, const HttpRequest& request, const Site
   return true;
 }
 
-bool answer_visits_post(GatewaySite& site, const Session& session, const HttpRequest& request,
-                        const Site::Done& done) {
+bool answer_visits_post(GatewaySite& site, const Session& session, const HttpRequest& request, const Site::Done& done) {
   const auto remarked = visit_in(request.path, kRemarksVerb), played = visit_in(request.path, kPlaybackVerb);
   if (!remarked && !played) return false;
   if (session.role == Role::visitor)

@@ -65,8 +65,7 @@ void VisitsDesk::give(std::function<HttpAnswer()> work, Site::Done done) {
   });
 }
 
-void VisitsDesk::read(const VisitsQuery& query, std::function<HttpAnswer(const VisitsFound&)> answer,
-                      Site::Done done) {
+void VisitsDesk::read(const VisitsQuery& query, std::function<HttpAnswer(const VisitsFound&)> answer, Site::Done done) {
   give(
       [this, query, answer = std::move(answer)] {
         const auto found = find_now(query);
@@ -80,7 +79,10 @@ void VisitsDesk::find(const std::string& number, std::function<void(Expected<Vis
     return then(fail(ErrorCode::busy, "the gateway is busy reading visits", {}, "try again in a moment"));
   ++waiting_;
   thread_.give([this, number, then = std::move(then)] {
-    post_([this, then, visit = visit_now(number)] {
+    auto visit = visit_now(number);
+    const auto written = book();
+    if (visit && written) (*written)->put_into({&*visit, 1});
+    post_([this, then, visit = std::move(visit)] {
       --waiting_;
       then(visit);
     });

@@ -85,8 +85,7 @@ VisitsJson counts_json(const std::vector<visits::EndingCount>& counts) {
 VisitsJson remark_list(const VisitRecord& record) {
   VisitsJson list = VisitsJson::array();
   for (const visits::RecordedRemark& remark : record.remarks) {
-    list.push_back(
-        {{"when", visits::minute_text(remark.minute)}, {"author", remark.author}, {"text", remark.text}});
+    list.push_back({{"when", visits::minute_text(remark.minute)}, {"author", remark.author}, {"text", remark.text}});
     if (remark.at_s) list.back()["at"] = *remark.at_s;
   }
   return list;
@@ -125,9 +124,8 @@ std::string visits_json(const VisitsFound& found) {
   for (const visits::ActivitySummary& activity : activities)
     list.push_back(activity_json(activity));
   for (const visits::DayCount& day : visits::count_days(found.records, found.since, found.now))
-    days.push_back({{"day", visits::minute_text(day.first_minute).substr(0, 10)},
-                    {"visits", day.visits},
-                    {"done", day.done}});
+    days.push_back(
+        {{"day", visits::minute_text(day.first_minute).substr(0, 10)}, {"visits", day.visits}, {"done", day.done}});
   const std::size_t told = std::min(found.records.size(), kVisitsTold);
   for (const VisitRecord& record : std::span(found.records).last(told))
     recent.insert(recent.begin(), visit_json(record));
@@ -146,6 +144,10 @@ std::string visits_json(const VisitsFound& found) {
 
 std::string remarks_json(const VisitRecord& record) {
   return dumped({{"visit", record.number}, {"remarks", remark_list(record)}});
+}
+
+std::string playback_json(const VisitRecord& record, std::string_view state, double share, const std::string& trouble) {
+  return dumped({{"state", state}, {"share", share}, {"trouble", trouble}, {"visit", visit_json(record)}});
 }
 
 }  // namespace mechane::gateway

@@ -10,7 +10,7 @@
 namespace mechane::gateway {
 namespace {
 
-constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kLongestOfQuery = 100;
 
 std::string named(const std::map<std::string, std::string>& query, const char* key) {
   const auto found = query.find(key);
@@ -27,7 +27,7 @@ Expected<VisitsQuery> parse_visits_query(const std::map<std::string, std::string
   VisitsQuery wanted;
   wanted.exhibit = named(query, "exhibit");
   wanted.language = named(query, "language");
-  if (wanted.exhibit.size() > kLongestName || wanted.language.size() > kLongestName)
+  if (wanted.exhibit.size() > kLongestOfQuery || wanted.language.size() > kLongestOfQuery)
     return fail(ErrorCode::invalid_value, "this name is too long", {}, "take a name that GET /api/visits lists");
   const std::string days = named(query, "days");
   if (days.empty()) return wanted;

@@ -39,8 +39,7 @@ Expected<std::unique_ptr<world::World>> world_of_journal(
     config.force.thin_walls = haptics::ThinWalls::hold_tips;
     config.force.weights = false;
   }
-  if (header.state_version < state::StateVersion::with_sides)
-    config.force.thin_walls = haptics::ThinWalls::let_through;
+  if (header.state_version < state::StateVersion::with_sides) config.force.thin_walls = haptics::ThinWalls::let_through;
   if (header.state_version < state::StateVersion::with_anchors) {
     config.force.friction = haptics::FrictionKind::damps;
     config.force.normals = haptics::NormalKind::of_contacts;

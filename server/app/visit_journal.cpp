@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMinute_ticks = 60'000;
-constexpr std::uint64_t kNear_ticks = 500;        // a record's times and a journal's differ by less
-constexpr std::uint64_t kDrift_ticks = 10'000;    // by which a busy server's ticks may lag behind the clock
+constexpr std::uint64_t kNear_ticks = 500;          // a record's times and a journal's differ by less
+constexpr std::uint64_t kDrift_ticks = 10'000;      // by which a busy server's ticks may lag behind the clock
 constexpr std::uint64_t kAfterwards_ticks = 1'500;  // the end of the last movement is seen
 
 std::uint64_t apart(std::uint64_t a, std::uint64_t b) {

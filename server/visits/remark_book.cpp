@@ -42,8 +42,7 @@ std::optional<RecordedRemark> remark_of(const Json& json) {
   if (!is("minute", &Json::is_number_unsigned) || !is("author", &Json::is_string) || !is("text", &Json::is_string))
     return std::nullopt;
   if (json.contains("at_s") && !json["at_s"].is_number()) return std::nullopt;
-  RecordedRemark remark{static_cast<std::int64_t>(json["minute"].get<std::uint32_t>()), json["text"],
-                        json["author"]};
+  RecordedRemark remark{static_cast<std::int64_t>(json["minute"].get<std::uint32_t>()), json["text"], json["author"]};
   if (json.contains("at_s")) remark.at_s = json["at_s"].get<double>();
   return remark;
 }
@@ -52,7 +51,8 @@ std::optional<RecordedRemark> remark_of(const Json& json) {
 
 Expected<void> check_remark(const RecordedRemark& remark, const std::string& number) {
   const auto wrong_text = [](const std::string& text, std::size_t longest) {
-    return text.empty() || text.size() > longest || first_bad_utf8(text) || std::ranges::any_of(text, is_control_in_lines);
+    return text.empty() || text.size() > longest || first_bad_utf8(text) ||
+           std::ranges::any_of(text, is_control_in_lines);
   };
   if (wrong_text(remark.text, kLongestRemark)) {
     return fail(remark.text.size() > kLongestRemark ? ErrorCode::too_large : ErrorCode::invalid_value,
@@ -110,7 +110,8 @@ Expected<void> RemarkBook::add(const std::string& number, const RecordedRemark& 
   remarks[number].push_back(remark);
   const bool of_one = remarks[number].size() > kMostOfVisit;
   if (of_one || count_of_all(remarks) > kMost) {
-    return fail(ErrorCode::conflict, of_one ? "this visit has as many remarks as it can have" : "there are too many remarks",
+    return fail(ErrorCode::conflict,
+                of_one ? "this visit has as many remarks as it can have" : "there are too many remarks",
                 "visit " + number, "delete visits that are not needed any more: mechane visits forget");
   }
   return keep(std::move(remarks));

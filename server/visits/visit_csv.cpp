@@ -35,8 +35,7 @@ Cells cells_of(const VisitRecord& record) {
   for (const auto& [name, time_s] : times)
     cells[fmt::format("{} {} s", record.activity, name)] = fmt::format("{:.3f}", time_s);
   for (const RecordedAnswer& answer : record.answers)
-    cells[fmt::format("{} {}: {}", record.activity, word_of(answer.when), answer.question)] =
-        answer_value(answer);
+    cells[fmt::format("{} {}: {}", record.activity, word_of(answer.when), answer.question)] = answer_value(answer);
   return cells;
 }
 

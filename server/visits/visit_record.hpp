@@ -69,9 +69,9 @@ enum class VisitEnding : std::uint8_t {
 
 /// An observer's words, written later. The server never changes them.
 struct RecordedRemark {
-  std::int64_t minute = 0;  ///< since 1970 UTC
-  std::string text;         ///< 1 to kLongestRemark bytes of UTF-8, one line or several
-  std::string author{};     ///< who wrote it in a console; empty: written with `mechane visits remark`
+  std::int64_t minute = 0;       ///< since 1970 UTC
+  std::string text;              ///< 1 to kLongestRemark bytes of UTF-8, one line or several
+  std::string author{};          ///< who wrote it in a console; empty: written with `mechane visits remark`
   std::optional<double> at_s{};  ///< what it is about: seconds since the visit began; none: all of it
   bool operator==(const RecordedRemark&) const = default;
 };

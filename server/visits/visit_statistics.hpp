@@ -25,7 +25,7 @@ struct StepSummary {
   std::string name;
   std::size_t visits = 0;              ///< that reached it
   std::array<std::size_t, 4> ended{};  ///< by StepEnding; a repeated step counts twice
-  std::size_t left = 0;  ///< visits that were left in it
+  std::size_t left = 0;                ///< visits that were left in it
   std::size_t hints = 0;
   TimeSpread time;  ///< of those that were done, and seen from their beginning
 };

@@ -23,7 +23,8 @@ using visits::VisitFile;
 using visits::VisitRecord;
 using Json = nlohmann::json;
 
-VisitRecord visit_now(const std::string& number, const std::string& scenario = "screw", const std::string& language = "el") {
+VisitRecord visit_now(const std::string& number, const std::string& scenario = "screw",
+                      const std::string& language = "el") {
   VisitRecord record;
   record.number = number;
   record.kiosk = "kiosk-1";
@@ -75,8 +76,9 @@ class VisitsDeskTest : public testing::Test {
   }
   HttpAnswer read(const VisitsQuery& query = {}) {
     return answer_of([&](Site::Done done) {
-      desk_->read(query, [](const VisitsFound& found) { return answer_with(visits_json(found), "application/json"); },
-                  std::move(done));
+      desk_->read(
+          query, [](const VisitsFound& found) { return answer_with(visits_json(found), "application/json"); },
+          std::move(done));
     });
   }
   HttpAnswer remark(const std::string& number, const std::string& text) {
@@ -126,7 +128,8 @@ TEST_F(VisitsDeskTest, ARemarkIsKeptBesideTheRecordsWhichStayAsTheyAre) {
   const auto file = records_ / visits::kVisitFileName;
   const auto before = std::filesystem::last_write_time(file);
   const Json kept = json(remark("0000-0000-0000", "laughed"));
-  EXPECT_EQ(kept["remarks"], Json::parse(R"([{"when":"1970-01-01 00:01","author":"eleni","text":"laughed","at":3.5}])"));
+  EXPECT_EQ(kept["remarks"],
+            Json::parse(R"([{"when":"1970-01-01 00:01","author":"eleni","text":"laughed","at":3.5}])"));
   EXPECT_EQ(json(read())["recent"][0]["remarks"], kept["remarks"]);
   EXPECT_EQ(std::filesystem::last_write_time(file), before);
   EXPECT_EQ(remark("0000-0000-0009", "x").status, 404U);
@@ -155,8 +158,9 @@ TEST_F(VisitsDeskTest, WithoutAFileItSaysSoAndManyQuestionsDoNotPileUp) {
   EXPECT_EQ(answer.status, 404U);
   std::size_t refused = 0, answered = 0;
   for (int i = 0; i < 100; ++i)
-    desk_->read({}, [](const VisitsFound&) { return HttpAnswer{}; },
-                [&](const HttpAnswer& got) { ++(got.status == 503 ? refused : answered); });
+    desk_->read(
+        {}, [](const VisitsFound&) { return HttpAnswer{}; },
+        [&](const HttpAnswer& got) { ++(got.status == 503 ? refused : answered); });
   EXPECT_EQ(refused, 84U) << "sixteen may wait for the loop's thread, which took no answer yet";
 }
 
@@ -176,8 +180,8 @@ TEST(RemarkMessage, IsReadOrRefusedWithARemedy) {
   ASSERT_TRUE(remark);
   EXPECT_EQ(remark_line(*remark), "eleni, at 36 s: laughed");
   EXPECT_FALSE(parse_remark(R"({"text":"laughed","at":null})", "eleni")->at_s);
-  for (const char* body : {"", "[]", "{}", R"({"text":1})", R"({"text":""})", R"({"text":"x","at":"1"})", R"({"text":"x","at":-1})",
-                           R"({"text":"x","at":1e99})", "{\"text\":\"\xff\"}"}) {
+  for (const char* body : {"", "[]", "{}", R"({"text":1})", R"({"text":""})", R"({"text":"x","at":"1"})",
+                           R"({"text":"x","at":-1})", R"({"text":"x","at":1e99})", "{\"text\":\"\xff\"}"}) {
     const auto wrong = parse_remark(body, "eleni");
     ASSERT_FALSE(wrong) << body;
     EXPECT_FALSE(wrong.error().remedy.empty());
