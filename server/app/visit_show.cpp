@@ -65,11 +65,15 @@ class Stage final : public world::Publisher {
   state::TickInputs ignored_;
 };
 
-Expected<void> wait_for_somebody(Stage& stage, Clock& clock) {
-  for (const TimePoint until = clock.now() + kSomebodyComesWithin; !stage.poll(clock.now());
-       clock.sleep_until(clock.now() + kPollEvery)) {
-    if (clock.now() > until)
+/// Clients are in a world when they have heard of its state: it is shown to them again and again.
+Expected<void> wait_for_somebody(Stage& stage, const state::WorldState& state, Clock& clock) {
+  const TimePoint until = clock.now() + kSomebodyComesWithin;
+  for (TimePoint now = clock.now(); !stage.poll(now); now = clock.now()) {
+    if (now > until)
       return fail(ErrorCode::timed_out, "nobody came to see the visit", {}, "start it from the console again");
+    stage.forget_what_came(now);
+    stage.publish(state);
+    clock.sleep_until(now + kPollEvery);
   }
   return {};
 }
@@ -87,11 +91,15 @@ Expected<void> show_visit(const VisitTicks& visit, const std::shared_ptr<const s
   world::NoPublisher nobody;
   record::JournalTick tick;
   bool more = journal->next(tick);
-  for (; more && !tick.after_loss && tick.tick < visit.first; more = journal->next(tick))
+  const auto may_begin = [&] {
+    const std::uint64_t now = (*world)->state.tick;
+    return now >= visit.first && transport::WorldPort::shows(now);
+  };
+  for (; more && !tick.after_loss && !may_begin(); more = journal->next(tick))
     world::step(**world, tick.inputs, nobody, timer);
   auto stage = Stage::open(description, **world, options);
   if (!stage) return tl::unexpected(stage.error());
-  if (auto came = wait_for_somebody(**stage, clock); !came) return came;
+  if (auto came = wait_for_somebody(**stage, (*world)->state, clock); !came) return came;
   const TimePoint began = clock.now();
   TimePoint polled = began;
   for (; more && !tick.after_loss && tick.tick <= visit.last; more = journal->next(tick)) {
