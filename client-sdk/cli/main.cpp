@@ -188,6 +188,7 @@ CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
   visits->add_option("--records", o.records, "the server's folder of records, with the file of visits")
       ->capture_default_str();
   visits->add_option("--file", o.file, "or the file of visits itself");
+  visits->add_option("--remarks", o.remarks, "with the remarks of a console: remarks.json in its gateway's folder");
   visits->add_option("--since", o.since, "only visits that began then or later: 2026-11-22, or with a time, in UTC");
   visits->add_option("--scenario", o.scenario, "only visits to this scenario (its id)");
   visits->add_option("--kiosk", o.kiosk, "only visits at this kiosk");

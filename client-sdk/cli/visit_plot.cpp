@@ -17,7 +17,12 @@
 namespace mechane::cli {
 namespace {
 
+using visits::ActivitySummary;
 using visits::AnswerTime;
+using visits::QuestionSummary;
+using visits::Satisfaction;
+using visits::share_of;
+using visits::StepSummary;
 using visits::VisitEnding;
 
 // The colours of the benchmarks' plots.

@@ -13,11 +13,16 @@
 namespace mechane::cli {
 namespace {
 
+using visits::ActivitySummary;
 using visits::MistakeKind;
+using visits::QuestionSummary;
 using visits::RecordedAnswer;
 using visits::RecordedMistake;
 using visits::RecordedStep;
+using visits::Satisfaction;
 using visits::StepEnding;
+using visits::StepSummary;
+using visits::TimeSpread;
 using visits::VisitEnding;
 using visits::VisitRecord;
 using Json = nlohmann::ordered_json;
@@ -93,71 +98,6 @@ std::string dumped(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// One field of a CSV line.
-std::string field(std::string text) {
-  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos)
-    text.insert(text.begin(), '\'');
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string answer_value(const RecordedAnswer& answer) {
-  return answer.marks > 0 ? fmt::format("{}", answer.mark) : answer.value;
-}
-
-/// The columns that not every visit has, by their headings.
-using Cells = std::map<std::string, std::string>;
-
-Cells cells_of(const VisitRecord& record) {
-  Cells cells;
-  std::map<std::string, double> times;
-  for (const RecordedStep& step : record.steps)
-    times[step.name] += step.duration_s;
-  for (const auto& [name, time_s] : times)
-    cells[fmt::format("{} {} s", record.activity, name)] = fmt::format("{:.3f}", time_s);
-  for (const RecordedAnswer& answer : record.answers)
-    cells[fmt::format("{} {}: {}", record.activity, visits::word_of(answer.when), answer.question)] =
-        answer_value(answer);
-  return cells;
-}
-
-std::vector<std::string> fixed_cells(const VisitRecord& record) {
-  const auto steps = [&](const auto& fits) { return fmt::format("{}", std::ranges::count_if(record.steps, fits)); };
-  std::vector<std::string> cells{record.number,
-                                 visits::minute_text(record.minute),
-                                 record.kiosk,
-                                 record.scenario,
-                                 record.scenario_hash,
-                                 record.activity,
-                                 record.language,
-                                 std::string(word_of(record.ending)),
-                                 record.done_alone() ? "yes" : "no",
-                                 record.from_start ? "yes" : "no",
-                                 fmt::format("{:.3f}", record.duration_s),
-                                 fmt::format("{}", record.hands),
-                                 record.went_on_to,
-                                 steps([](const RecordedStep& s) { return s.hint_shown; }),
-                                 steps([](const RecordedStep& s) { return s.ending == StepEnding::timed_out; }),
-                                 steps([](const RecordedStep& s) { return s.ending == StepEnding::skipped; })};
-  for (std::size_t k = 0; k < visits::kMistakeKinds; ++k)
-    cells.push_back(fmt::format("{}", record.count_of(static_cast<MistakeKind>(k))));
-  std::vector<std::string> remarks;
-  for (const visits::RecordedRemark& remark : record.remarks)
-    remarks.push_back(remark.text);
-  cells.push_back(fmt::format("{}", fmt::join(remarks, "\n")));
-  return cells;
-}
-
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (const std::string& cell : cells)
-    line.append(&cell == cells.data() ? "" : ",").append(field(cell));
-  return line + "\r\n";
-}
-
 Json json_of(const TimeSpread& time) {
   if (time.count == 0) return {{"count", 0}};
   return {{"count", time.count}, {"median_s", time.median_s}, {"p90_s", time.p90_s}};
@@ -221,6 +161,13 @@ Json json_of(const RecordedAnswer& answer) {
   return json;
 }
 
+Json json_of(const visits::RecordedRemark& remark) {
+  Json json{{"when", visits::minute_text(remark.minute)}, {"text", remark.text}};
+  if (!remark.author.empty()) json["author"] = remark.author;
+  if (remark.at_s) json["at_s"] = *remark.at_s;
+  return json;
+}
+
 Json json_of(const VisitRecord& record) {
   Json steps = Json::array();
   for (const RecordedStep& s : record.steps) {
@@ -238,7 +185,7 @@ Json json_of(const VisitRecord& record) {
     answers.push_back(json_of(answer));
   Json remarks = Json::array();
   for (const visits::RecordedRemark& remark : record.remarks)
-    remarks.push_back({{"when", visits::minute_text(remark.minute)}, {"text", remark.text}});
+    remarks.push_back(json_of(remark));
   return {{"visit", record.number},
           {"began", visits::minute_text(record.minute)},
           {"kiosk", record.kiosk},
@@ -326,33 +273,8 @@ std::string visit_page(const VisitRecord& record) {
                                !answer.right ? "" : (*answer.right ? ", right" : ", wrong")));
   }
   for (const visits::RecordedRemark& remark : record.remarks)
-    line("remark", fmt::format("{}: {}", visits::minute_text(remark.minute), shown(remark.text)));
+    line("remark", fmt::format("{}: {}", visits::minute_text(remark.minute), shown(remark_line(remark))));
   return page;
-}
-
-std::string visits_csv(std::span<const VisitRecord> records) {
-  std::vector<std::string> head{"visit",      "began (UTC)", "kiosk",      "scenario",   "scenario hash", "activity",
-                                "language",   "ending",      "done alone", "from start", "duration s",    "hands",
-                                "went on to", "hints",       "timed out",  "skipped"};
-  for (std::size_t k = 0; k < visits::kMistakeKinds; ++k)
-    head.emplace_back(word_of(static_cast<MistakeKind>(k)));
-  head.emplace_back("remarks");
-  Cells columns;
-  for (const VisitRecord& record : records)
-    columns.merge(cells_of(record));
-  for (const auto& [name, unused] : columns)
-    head.push_back(name);
-  std::string csv = csv_line(head);
-  for (const VisitRecord& record : records) {
-    std::vector<std::string> line = fixed_cells(record);
-    const Cells cells = cells_of(record);
-    for (const auto& [name, unused] : columns) {
-      const auto cell = cells.find(name);
-      line.push_back(cell == cells.end() ? "" : cell->second);
-    }
-    csv += csv_line(line);
-  }
-  return csv;
 }
 
 std::string report_json(std::span<const ActivitySummary> activities) {

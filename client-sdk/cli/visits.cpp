@@ -9,11 +9,13 @@
 
 #include "client-sdk/cli/content_text.hpp"
 #include "client-sdk/cli/visit_plot.hpp"
-#include "client-sdk/cli/visit_statistics.hpp"
 #include "client-sdk/cli/visit_text.hpp"
 #include "server/base/suggestion.hpp"
 #include "server/base/whole_file.hpp"
+#include "server/visits/remark_book.hpp"
+#include "server/visits/visit_csv.hpp"
 #include "server/visits/visit_file.hpp"
+#include "server/visits/visit_statistics.hpp"
 
 namespace mechane::cli {
 namespace {
@@ -74,7 +76,16 @@ Expected<VisitChoice> VisitsCommand::choice() const {
 Expected<std::vector<VisitRecord>> VisitsCommand::read(const VisitChoice& choice) const {
   const auto opened = VisitFile::open(file(), VisitFile::Access::read);
   if (!opened) return tl::unexpected(opened.error());
-  return opened->records(choice);
+  auto records = opened->records(choice);
+  if (!records || options_.remarks.empty()) return records;
+  if (std::error_code code; !fs::exists(options_.remarks, code)) {
+    return fail(ErrorCode::not_found, "there is no file of remarks", options_.remarks.string(),
+                "name remarks.json in the gateway's folder (--state)");
+  }
+  const auto book = visits::RemarkBook::open(options_.remarks);
+  if (!book) return tl::unexpected(book.error());
+  book->put_into(*records);
+  return records;
 }
 
 std::optional<Error> VisitsCommand::unknown_name(std::span<const VisitRecord> all) const {
@@ -126,9 +137,9 @@ int VisitsCommand::report() {
   int status = 0;
   const auto records = chosen_records(status);
   if (!records) return status;
-  const std::vector<ActivitySummary> activities = summarise(*records);
+  const std::vector<visits::ActivitySummary> activities = summarise(*records);
   out_ << (options_.json ? report_json(activities) : visits_report(activities));
-  if (!options_.csv.empty()) status = std::max(status, write(options_.csv, visits_csv(*records)));
+  if (!options_.csv.empty()) status = std::max(status, write(options_.csv, visits::visits_csv(*records)));
   if (!options_.svg.empty()) status = std::max(status, write(options_.svg, visits_svg(activities)));
   return status;
 }

@@ -12,6 +12,7 @@ namespace mechane::cli {
 struct VisitsOptions {
   std::filesystem::path records = "out/records";  ///< the server's folder; the file of visits is in it
   std::filesystem::path file;                     ///< or the file itself
+  std::filesystem::path remarks;                  ///< a console's file of remarks, to be shown too; empty: none
   std::string since;   ///< "2026-11-22" or "2026-11-22 09:40", UTC; only what began then or later
   std::string before;  ///< forget: what began earlier
   std::string scenario;

@@ -8,8 +8,8 @@
 #include "client-sdk/gateway/request_path.hpp"
 #include "client-sdk/gateway/secrets.hpp"
 #include "client-sdk/gateway/security_headers.hpp"
+#include "client-sdk/gateway/visits_api.hpp"
 #include "server/log/log.hpp"
-#include "server/visits/visit_file.hpp"
 #include <mechane/proto/identity.hpp>
 
 namespace mechane::gateway {
@@ -139,49 +139,6 @@ void answer_server(GatewaySite& site, const Done& done) {
         return json_answer({{"server", server_json(*status)}, {"gateway", gateway()}});
       },
       std::chrono::seconds(2), json_answer({{"server", nullptr}, {"gateway", gateway()}}), done);
-}
-
-HttpAnswer visits_answer(const std::filesystem::path& records, std::int64_t days) {
-  const auto file = visits::VisitFile::open(records / visits::kVisitFileName, visits::VisitFile::Access::read);
-  if (!file) return refusal(file.error());
-  visits::VisitChoice choice;
-  choice.since = visits::minute_now() - days * 24 * 60;
-  const auto found = file->records(choice);
-  if (!found) return refusal(found.error());
-  struct Count {
-    std::size_t visits = 0, done = 0, alone = 0, left = 0;
-    double done_s = 0;
-  };
-  std::map<std::pair<std::string, std::string>, Count> counts;
-  for (const visits::VisitRecord& record : *found) {
-    Count& count = counts[{record.scenario, record.activity}];
-    ++count.visits;
-    if (record.ending == visits::VisitEnding::left) ++count.left;
-    if (record.ending != visits::VisitEnding::done) continue;
-    ++count.done;
-    count.done_s += record.duration_s;
-    if (record.done_alone()) ++count.alone;
-  }
-  ApiJson activities = ApiJson::array();
-  for (const auto& [name, count] : counts)
-    activities.push_back({{"scenario", name.first},
-                          {"activity", name.second},
-                          {"visits", count.visits},
-                          {"done", count.done},
-                          {"doneAlone", count.alone},
-                          {"left", count.left},
-                          {"meanS", count.done == 0 ? 0 : count.done_s / static_cast<double>(count.done)}});
-  return json_answer({{"days", days}, {"visits", found->size()}, {"activities", activities}});
-}
-
-void answer_visits(GatewaySite& site, const HttpRequest& request, const Done& done) {
-  if (site.options().records.empty())
-    return done(refusal(404, "this gateway was started without records", "start it with --records FOLDER"));
-  const std::string wanted = request.query_value("days");
-  const bool digits = wanted.size() <= 4 && std::ranges::all_of(wanted, [](char c) { return c >= '0' && c <= '9'; });
-  if (!digits) return done(refusal(400, "days must be a number", "write days=7"));
-  const std::int64_t days = wanted.empty() ? 1 : std::stoi(wanted);
-  site.on_disk([records = site.options().records, days] { return visits_answer(records, days); }, done);
 }
 
 HttpAnswer audit_answer(const std::filesystem::path& file) {
@@ -359,7 +316,7 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
   }
   if (path == "/api/server") return answer_server(site, done), true;
   if (path == "/api/operations") return done(operations_answer(site)), true;
-  if (path == "/api/visits") return answer_visits(site, request, done), true;
+  if (answer_visits_get(site, request, done)) return true;
   const bool for_operators = path == "/api/audit" || path == "/api/accounts";
   if (!for_operators) return false;
   if (!operates) return done(not_allowed("operator")), true;
@@ -369,6 +326,7 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
 }
 
 bool answer_api_post(GatewaySite& site, const Session& session, const HttpRequest& request, const Done& done) {
+  if (answer_visits_post(site, session, request, done)) return true;
   if (session.role != Role::manager) return done(not_allowed("operator")), true;
   const ApiJson json = ApiJson::parse(request.body, nullptr, false);
   if (!json.is_object()) return done(refusal(400, "this request is not a JSON object", "send an object")), true;

@@ -73,12 +73,14 @@ GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accou
       operations_(std::move(operations)),
       tokens_(options.token_idle),
       audit_(options.state),
+      visits_(options.records, options.state, [&server](std::function<void()> job) { server.post(std::move(job)); }),
       backstage_{options.domain, slow_,    [&server](std::function<void()> job) { server.post(std::move(job)); },
                  seats,          content_, tokens_} {}
 
 GatewaySite::~GatewaySite() {
   waiting_.clear();  // these hold hubs, too
   hubs_.clear();     // while the slow thread is there
+  playbacks_ = {};
 }
 
 const Session* GatewaySite::session_of(const HttpRequest& request) {
@@ -109,7 +111,7 @@ void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
   if (const auto file = after(request.path, "/app/"))
     return serve_file(request, {options_.app, *file, "", file->starts_with("assets/")}, done);
   const bool page = request.path == "/" || request.path == "/console" || request.path.starts_with("/console/") ||
-                    request.path.starts_with("/kiosk/");
+                    request.path.starts_with("/kiosk/") || request.path.starts_with("/playback/");
   if (!page) return done(nothing_here());
   if (const auto kiosk = after(request.path, "/kiosk/");
       kiosk && session_of(request) == nullptr && in_maintenance(operations_.state(), *kiosk, wall_now()))
@@ -310,6 +312,7 @@ void GatewaySite::tick() {
   const TimePoint now = site_now();
   for (const auto& [kiosk, hub] : hubs_)
     hub->tick(now);
+  playbacks_.tick(now);
   if (now < next_look_) return;
   next_look_ = now + kLookAgain;
   keeper_.tick(*this, wall_now(), now);

@@ -17,7 +17,9 @@
 #include "client-sdk/gateway/kiosk_hub.hpp"
 #include "client-sdk/gateway/kiosk_keeper.hpp"
 #include "client-sdk/gateway/operations.hpp"
+#include "client-sdk/gateway/playback.hpp"
 #include "client-sdk/gateway/sessions.hpp"
+#include "client-sdk/gateway/visits_desk.hpp"
 
 namespace mechane::gateway {
 
@@ -58,6 +60,9 @@ class GatewaySite final : public Site {
   [[nodiscard]] Accounts& accounts() { return accounts_; }
   [[nodiscard]] Operations& operations() { return operations_; }
   [[nodiscard]] Sessions& sessions() { return sessions_; }
+  [[nodiscard]] VisitsDesk& visits() { return visits_; }
+  [[nodiscard]] PlaybackShelf& playbacks() { return playbacks_; }
+  [[nodiscard]] const Backstage& backstage() const { return backstage_; }
   /// Hashes or checks a password on a thread of its own. False: too many are waiting.
   [[nodiscard]] bool on_passwords(std::function<std::function<void()>()> work);
 
@@ -89,6 +94,7 @@ class GatewaySite final : public Site {
   KioskTokens tokens_;
   KnownContent content_;
   AuditLog audit_;
+  VisitsDesk visits_;
   FileStore files_;  // used by the disk's thread
   std::map<std::string, std::shared_ptr<KioskHub>> hubs_;
   std::deque<Waiting> waiting_;
@@ -99,6 +105,7 @@ class GatewaySite final : public Site {
   Worker disk_{"gateway-disk"};
   Worker password_thread_{"gateway-words"};
   const Backstage backstage_;
+  PlaybackShelf playbacks_;
 };
 
 }  // namespace mechane::gateway

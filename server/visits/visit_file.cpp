@@ -91,7 +91,13 @@ class ChoiceQuery {
     if (!number_.empty()) text_ += " AND substr(number, 1, length(:number)) = :number";
   }
   [[nodiscard]] bool chooses() const { return !text_.empty(); }
-  [[nodiscard]] std::string after(const std::string& head) const { return head + " WHERE 1" + text_; }
+  [[nodiscard]] std::string after(const std::string& head) const {
+    std::string query = head + " WHERE 1" + text_;
+    if (choice_.newest > 0)
+      query += fmt::format(" AND number IN (SELECT number FROM visit WHERE 1{} ORDER BY minute DESC, number LIMIT {})",
+                           text_, choice_.newest);
+    return query;
+  }
   void bind(SQLite::Statement& statement) const {
     if (choice_.since) statement.bind(":since", *choice_.since);
     if (choice_.before) statement.bind(":before", *choice_.before);
@@ -392,6 +398,18 @@ Expected<std::vector<VisitRecord>> VisitFile::records(const VisitChoice& choice)
   try {
     SQLite::Transaction transaction(connection_->db);  // all tables of the same moment
     return connection_->read_now(choice);
+  } catch (const SQLite::Exception& e) {
+    return explain_visits(e, file_, "reading it");
+  }
+}
+
+Expected<std::set<std::string>> VisitFile::numbers() const {
+  try {
+    std::set<std::string> numbers;
+    SQLite::Statement rows(connection_->db, "SELECT number FROM visit");
+    while (rows.executeStep())
+      numbers.insert(rows.getColumn(0).getString());
+    return numbers;
   } catch (const SQLite::Exception& e) {
     return explain_visits(e, file_, "reading it");
   }

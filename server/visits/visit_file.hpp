@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct VisitChoice {
   std::optional<std::int64_t> before{};  ///< began before this minute
   std::string scenario{};
   std::string kiosk{};
-  std::string number{};  ///< or its first letters, with or without dashes
+  std::string number{};    ///< or its first letters, with or without dashes
+  std::size_t newest = 0;  ///< at most so many of those, the newest; 0: all
 };
 
 /// One open file. Not thread-safe, and never for a loop thread: it reads the disk. Several programs may have it open; a writer waits up
@@ -46,6 +48,8 @@ class VisitFile {
 
   /// Sorted by when they began, then by number. Errors: damaged.
   [[nodiscard]] Expected<std::vector<VisitRecord>> records(const VisitChoice& choice) const;
+  /// The numbers of all records.
+  [[nodiscard]] Expected<std::set<std::string>> numbers() const;
   /// How many records there are in all.
   [[nodiscard]] Expected<std::size_t> count() const;
 

@@ -78,6 +78,12 @@ std::uint32_t VisitRecord::count_of(MistakeKind kind) const {
   return count;
 }
 
+std::string remark_line(const RecordedRemark& remark) {
+  std::string head = remark.author;
+  if (remark.at_s) head += fmt::format("{}at {:.0f} s", head.empty() ? "" : ", ", *remark.at_s);
+  return head.empty() ? remark.text : head + ": " + remark.text;
+}
+
 std::string new_visit_number() {
   std::random_device random;  // the kernel's: no number follows from another one
   std::string number;
@@ -86,6 +92,15 @@ std::string new_visit_number() {
     number += kLetters[random() % kLetters.size()];
   }
   return number;
+}
+
+bool is_visit_number(std::string_view text) {
+  if (text.size() != 14) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool dash = i % (kGroup + 1) == kGroup;
+    if (dash ? text[i] != '-' : kLetters.find(text[i]) == std::string_view::npos) return false;
+  }
+  return true;
 }
 
 std::int64_t minute_now() {

@@ -69,8 +69,10 @@ enum class VisitEnding : std::uint8_t {
 
 /// An observer's words, written later. The server never changes them.
 struct RecordedRemark {
-  std::int64_t minute = 0;  ///< since 1970 UTC
-  std::string text;         ///< 1 to kLongestRemark bytes of UTF-8, one line or several
+  std::int64_t minute = 0;       ///< since 1970 UTC
+  std::string text;              ///< 1 to kLongestRemark bytes of UTF-8, one line or several
+  std::string author{};          ///< who wrote it in a console; empty: written with `mechane visits remark`
+  std::optional<double> at_s{};  ///< what it is about: seconds since the visit began; none: all of it
   bool operator==(const RecordedRemark&) const = default;
 };
 inline constexpr std::size_t kLongestRemark = 2000;
@@ -104,6 +106,9 @@ struct VisitRecord {
   [[nodiscard]] std::uint32_t count_of(MistakeKind kind) const;
 };
 
+/// "eleni, at 35 s: laughed aloud": as much of it as the remark has.
+[[nodiscard]] std::string remark_line(const RecordedRemark& remark);
+
 [[nodiscard]] std::string_view word_of(AnswerTime when);
 [[nodiscard]] std::string_view word_of(StepEnding ending);
 [[nodiscard]] std::string_view word_of(MistakeKind kind);
@@ -116,6 +121,8 @@ inline constexpr std::size_t kMistakeKinds = 5;
 
 /// A new record's number: 60 random bits as "k7m2-9qxd-4tz0", in letters that are not easily confused.
 [[nodiscard]] std::string new_visit_number();
+/// Whether a text has the form of a whole number of a visit.
+[[nodiscard]] bool is_visit_number(std::string_view text);
 /// Minutes since 1970 UTC, now.
 [[nodiscard]] std::int64_t minute_now();
 /// "2026-11-22 09:40", UTC.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "client-sdk/gateway/browser_message.hpp"
+#include "client-sdk/gateway/visits_query.hpp"
 
 namespace {
 
@@ -28,6 +29,8 @@ void look_at(const PointerMessage& message) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (const auto remark = parse_remark({reinterpret_cast<const char*>(data), size}, "eleni"))
+    must_hold(!remark->text.empty() && (!remark->at_s || std::isfinite(*remark->at_s)));
   const auto message = parse_browser_message({reinterpret_cast<const char*>(data), size});
   if (!message) {
     must_hold(!message.error().remedy.empty());

@@ -11,6 +11,8 @@
 
 #include "client-sdk/cli/visit_plot.hpp"
 #include "client-sdk/cli/visit_text.hpp"
+#include "server/visits/remark_book.hpp"
+#include "server/visits/visit_csv.hpp"
 #include "server/visits/visit_file.hpp"
 
 namespace {
@@ -40,6 +42,11 @@ struct VisitsFile {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (const auto remarks = mechane::visits::parse_remarks({reinterpret_cast<const char*>(data), size})) {
+    for (const auto& [number, of_visit] : *remarks)
+      for (const auto& remark : of_visit)
+        if (!mechane::visits::check_remark(remark, number)) std::abort();
+  }
   static const VisitsFile file;
   file.remove();
   std::ofstream(file.path, std::ios::binary | std::ios::trunc)
@@ -54,9 +61,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (answer.mark > answer.marks || (answer.marks > 0 && answer.mark < 1)) std::abort();
     }
   }
-  const auto activities = cli::summarise(*records);
+  const auto activities = mechane::visits::summarise(*records);
   if (cli::visits_report(activities).empty() || cli::report_json(activities).empty()) std::abort();
-  if (cli::visits_csv(*records).empty() || cli::visits_list(*records).empty()) std::abort();
+  if (mechane::visits::visits_csv(*records).empty() || cli::visits_list(*records).empty()) std::abort();
   if (cli::visits_svg(activities).find('\x1b') != std::string::npos) std::abort();
   return 0;
 }

@@ -7,9 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client-sdk/cli/visit_plot.hpp"
-#include "client-sdk/cli/visit_statistics.hpp"
-#include "client-sdk/cli/visit_text.hpp"
+#include "server/visits/remark_book.hpp"
 #include "server/visits/visit_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -18,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -233,6 +230,24 @@ TEST_F(VisitsTest, AnObserverRemarksAndForgets) {
   EXPECT_EQ(json("")["visits"], 0);
 }
 
+TEST_F(VisitsTest, AConsolesRemarksAreInTheReportTheListAndTheSpreadsheet) {
+  keep(ten_visits());
+  options_.remarks = folder_ / "remarks.json";
+  EXPECT_EQ(run(""), 1) << "a name that is spelt wrongly must not look like a book without remarks";
+  EXPECT_THAT(errors_, HasSubstr("there is no file of remarks"));
+  auto book = visits::RemarkBook::open(options_.remarks);
+  ASSERT_TRUE(book);
+  ASSERT_TRUE(book->add("0003-0000-0000", {29'922'360, "laughed, twice", "eleni", 35.2}));
+  EXPECT_EQ(json("")["activities"][0]["remarks"], 1);
+  options_.json = false;
+  options_.csv = folder_ / "visits.csv";
+  EXPECT_EQ(run(""), 0) << errors_;
+  EXPECT_THAT(text_of(options_.csv), HasSubstr("\"eleni, at 35 s: laughed, twice\""));
+  options_.visit = "0003";
+  EXPECT_EQ(run("show"), 0);
+  EXPECT_THAT(out_, HasSubstr("remark    2026-11-22 10:00: eleni, at 35 s: laughed, twice"));
+}
+
 TEST_F(VisitsTest, TheSpreadsheetHasALineAVisitAndNoFormula) {
   std::vector<VisitRecord> records = ten_visits();
   records[0].kiosk = "=HYPERLINK(\"x\")";
@@ -287,45 +302,6 @@ TEST_F(VisitsTest, WhatIsNotAFileOfVisitsIsSaidOnOneLine) {
     EXPECT_THAT(errors_, HasSubstr("not a file of visits")) << verb;
     EXPECT_THAT(out_, IsEmpty()) << verb;
   }
-}
-
-TEST(VisitStatistics, MedianAndNinetiethOfFewAndMany) {
-  EXPECT_EQ(spread_of({}).count, 0U);
-  EXPECT_DOUBLE_EQ(spread_of({7}).median_s, 7);
-  EXPECT_DOUBLE_EQ(spread_of({7}).p90_s, 7);
-  EXPECT_DOUBLE_EQ(spread_of({3, 1}).median_s, 2);
-  EXPECT_DOUBLE_EQ(spread_of({3, 1}).p90_s, 3);
-  std::vector<double> times(100);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    times[i] = static_cast<double>(100 - i);
-  EXPECT_DOUBLE_EQ(spread_of(times).median_s, 50.5);
-  EXPECT_DOUBLE_EQ(spread_of(times).p90_s, 90);
-}
-
-TEST(VisitStatistics, SatisfiedIsAboveTheMiddleOfItsScale) {
-  VisitRecord record = visit_of("0000-0000-0000", 1);
-  for (const auto& [mark, marks] :
-       {std::pair(3, 5), std::pair(4, 5), std::pair(2, 4), std::pair(3, 4), std::pair(1, 1)})
-    record.answers.push_back(
-        {std::to_string(mark) + " of " + std::to_string(marks), AnswerTime::after, "", mark, marks, {}});
-  record.answers.push_back({"before", AnswerTime::before, "", 5, 5, {}});
-  const std::vector<ActivitySummary> all = summarise(std::vector{record});
-  EXPECT_EQ(satisfaction_of(all).marks, 5U);
-  EXPECT_EQ(satisfaction_of(all).satisfied, 2U);
-}
-
-TEST(VisitStatistics, StepsStandInTheOrderInWhichVisitorsCameToThem) {
-  VisitRecord record = visit_of("0000-0000-0000", 1);
-  record.steps = {{"zeta", 1, StepEnding::done, false, true},
-                  {"alpha", 1, StepEnding::unfinished, false, true},
-                  {"zeta", 2, StepEnding::done, false, true},
-                  {"alpha", 1, StepEnding::timed_out, true, true}};
-  const auto all = summarise(std::vector{record});
-  ASSERT_THAT(all[0].steps, SizeIs(2));
-  EXPECT_EQ(all[0].steps[0].name, "zeta");
-  EXPECT_EQ(all[0].steps[0].visits, 1U);
-  EXPECT_EQ(all[0].steps[0].time.count, 2U);
-  EXPECT_THAT(all[0].steps[1].ended, ElementsAre(1, 0, 1, 0));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // The gateway's JSON API, as the console uses it. An error is a sentence: what happened, and what to do.
 
+import { playbackOf, remarksOf, visitsAddress, visitsOf, type PlaybackState, type Remark, type VisitsFigures, type VisitsQuery } from './visits';
+
 export interface User {
   user: string;
   role: string;
@@ -100,6 +102,22 @@ export class Api {
   }
   async picture(kiosk: string, display: string): Promise<Blob> {
     return (await this.send('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/picture`, { display })).blob();
+  }
+  async visits(query: VisitsQuery): Promise<VisitsFigures> {
+    return visitsOf(await this.json('GET', visitsAddress('/api/visits', query)));
+  }
+  /** All remarks of the visit. `at`: seconds since it began, or null. */
+  async remark(visit: string, text: string, at: number | null): Promise<Remark[]> {
+    const said = await this.json('POST', `/api/visits/${encodeURIComponent(visit)}/remarks`, at === null ? { text } : { text, at });
+    return remarksOf(fields(said).remarks);
+  }
+  /** Begins to prepare a visit's playback, or tells how far it is. */
+  async playback(visit: string, begin: boolean): Promise<PlaybackState> {
+    const address = `/api/visits/${encodeURIComponent(visit)}/playback`;
+    return playbackOf(await (begin ? this.json('POST', address, {}) : this.json('GET', address)));
+  }
+  async tape(visit: string): Promise<ArrayBuffer> {
+    return (await this.send('GET', `/api/visits/${encodeURIComponent(visit)}/tape`)).arrayBuffer();
   }
 
   async json(method: string, path: string, body?: object): Promise<unknown> {

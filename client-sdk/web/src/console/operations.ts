@@ -46,10 +46,6 @@ export interface Entry {
   action: string;
   detail: string;
 }
-export interface Visits {
-  visits: number;
-  byExhibit: Record<string, number>;
-}
 /** When a change ends: after minutes, or at a time of the day; neither: it stays. */
 export type End = { minutes: number } | { until: string } | Record<string, never>;
 
@@ -111,14 +107,10 @@ export const orders = (api: Api) => ({
     list(fields(await api.json('GET', '/api/audit')).entries).map(fields).map((e) => ({
       time: text(e.time), user: text(e.user), address: text(e.address), action: text(e.action), detail: text(e.detail),
     })),
-  /** Of the last 24 hours; null where the gateway has no records. */
-  visits: async (): Promise<Visits | null> => {
+  /** How many began in the last 24 hours; null where the gateway has no records. */
+  visitsOfADay: async (): Promise<number | null> => {
     try {
-      const seen = fields(await api.json('GET', '/api/visits?days=1'));
-      const byExhibit: Record<string, number> = {};
-      for (const one of list(seen.activities).map(fields))
-        byExhibit[text(one.scenario)] = (byExhibit[text(one.scenario)] ?? 0) + number(one.visits);
-      return { visits: number(seen.visits), byExhibit };
+      return number(fields(await api.json('GET', '/api/visits?days=1')).visits);
     } catch (error) {
       if (error instanceof ApiError && error.status === 404) return null;
       throw error;

@@ -1,19 +1,12 @@
-#include "client-sdk/cli/visit_statistics.hpp"
+#include "server/visits/visit_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>
 
-namespace mechane::cli {
+namespace mechane::visits {
 namespace {
-
-using visits::AnswerTime;
-using visits::RecordedAnswer;
-using visits::RecordedStep;
-using visits::StepEnding;
-using visits::VisitEnding;
-using visits::VisitRecord;
 
 /// A summary under construction.
 class ActivityCount {
@@ -26,12 +19,13 @@ class ActivityCount {
     out_.remarks += record.remarks.size();
     out_.incomplete += record.notes_lost > 0 ? 1 : 0;
     add_steps(record);
+    if (record.ending == VisitEnding::left && !record.steps.empty()) ++steps_[record.steps.back().name].out.left;
     for (const RecordedAnswer& answer : record.answers)
       add_answer(answer);
     if (record.ending != VisitEnding::done && record.ending != VisitEnding::left) return;
     out_.done_alone += record.done_alone() ? 1 : 0;
     if (record.ending == VisitEnding::done && record.from_start) times_.push_back(record.duration_s);
-    for (const visits::RecordedMistake& mistake : record.mistakes)
+    for (const RecordedMistake& mistake : record.mistakes)
       out_.mistakes[static_cast<std::size_t>(mistake.kind)] += mistake.count;
   }
 
@@ -143,6 +137,38 @@ std::vector<ActivitySummary> summarise(std::span<const VisitRecord> records) {
   return activities;
 }
 
+std::vector<EndingCount> count_by(std::span<const VisitRecord> records, std::string VisitRecord::*field) {
+  std::map<std::string, EndingCount> counts;
+  for (const VisitRecord& record : records) {
+    EndingCount& count = counts[record.*field];
+    count.name = record.*field;
+    ++count.visits;
+    count.done += record.ending == VisitEnding::done ? 1 : 0;
+    count.done_alone += record.done_alone() ? 1 : 0;
+    count.left += record.ending == VisitEnding::left ? 1 : 0;
+  }
+  std::vector<EndingCount> sorted;
+  for (auto& [name, count] : counts)
+    sorted.push_back(std::move(count));
+  return sorted;
+}
+
+std::vector<DayCount> count_days(std::span<const VisitRecord> records, std::int64_t first_minute,
+                                 std::int64_t last_minute) {
+  constexpr std::int64_t kDay = std::int64_t{24} * 60;
+  std::vector<DayCount> days;
+  for (std::int64_t day = first_minute / kDay; day <= last_minute / kDay; ++day)
+    days.push_back({.first_minute = day * kDay});
+  for (const VisitRecord& record : records) {
+    const std::int64_t place = record.minute / kDay - first_minute / kDay;
+    if (place < 0 || place >= static_cast<std::int64_t>(days.size())) continue;
+    DayCount& day = days[static_cast<std::size_t>(place)];
+    ++day.visits;
+    day.done += record.ending == VisitEnding::done ? 1 : 0;
+  }
+  return days;
+}
+
 Satisfaction satisfaction_of(std::span<const ActivitySummary> activities) {
   Satisfaction sum;
   for (const ActivitySummary& activity : activities) {
@@ -160,4 +186,4 @@ std::optional<double> share_of(std::size_t part, std::size_t all) {
   return static_cast<double>(part) / static_cast<double>(all);
 }
 
-}  // namespace mechane::cli
+}  // namespace mechane::visits

@@ -1,4 +1,4 @@
-// Statistics of the records of many visits, for each activity.
+// Statistics of the records of many visits, for each activity. `mechane visits` and the operator's console show them.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "server/visits/visit_record.hpp"
 
-namespace mechane::cli {
+namespace mechane::visits {
 
 /// Median and 90th percentile of times in seconds; both 0 if there are none.
 struct TimeSpread {
@@ -25,13 +25,14 @@ struct StepSummary {
   std::string name;
   std::size_t visits = 0;              ///< that reached it
   std::array<std::size_t, 4> ended{};  ///< by StepEnding; a repeated step counts twice
+  std::size_t left = 0;                ///< visits that were left in it
   std::size_t hints = 0;
   TimeSpread time;  ///< of those that were done, and seen from their beginning
 };
 
 struct QuestionSummary {
   std::string name;
-  visits::AnswerTime when = visits::AnswerTime::after;
+  AnswerTime when = AnswerTime::after;
   std::size_t answers = 0;
   std::vector<std::size_t> at_mark;          ///< scale: how many gave each mark, 1 first; choice: empty
   double mean = 0;                           ///< scale
@@ -49,7 +50,7 @@ struct ActivitySummary {
   std::array<std::size_t, 4> ended{};  ///< by VisitEnding
   std::size_t done_alone = 0;          ///< of those done: without hint, time-out or skipped step
   TimeSpread time;                     ///< of the done that were seen from the activity's start
-  std::array<std::size_t, visits::kMistakeKinds> mistakes{};
+  std::array<std::size_t, kMistakeKinds> mistakes{};
   std::size_t hints = 0;
   std::size_t remarks = 0;
   std::size_t incomplete = 0;  ///< visits that the server could not record completely
@@ -64,7 +65,27 @@ struct ActivitySummary {
 };
 
 /// By scenario, then by activity.
-[[nodiscard]] std::vector<ActivitySummary> summarise(std::span<const visits::VisitRecord> records);
+[[nodiscard]] std::vector<ActivitySummary> summarise(std::span<const VisitRecord> records);
+
+/// Visits with the same word in one of a record's fields.
+struct EndingCount {
+  std::string name;
+  std::size_t visits = 0;
+  std::size_t done = 0;
+  std::size_t done_alone = 0;
+  std::size_t left = 0;
+};
+/// By scenario, kiosk or language: for each word that `field` has, in the order of words.
+[[nodiscard]] std::vector<EndingCount> count_by(std::span<const VisitRecord> records, std::string VisitRecord::*field);
+
+struct DayCount {
+  std::int64_t first_minute = 0;  ///< since 1970 UTC
+  std::size_t visits = 0;
+  std::size_t done = 0;
+};
+/// Each day (UTC) from that of the first minute to that of the last one, those without a visit too. Visits outside do not count.
+[[nodiscard]] std::vector<DayCount> count_days(std::span<const VisitRecord> records, std::int64_t first_minute,
+                                               std::int64_t last_minute);
 
 /// Of all scale questions after visits: the published evaluation reports the share of satisfied visitors (section 6:
 /// over 95 %).
@@ -77,4 +98,4 @@ struct Satisfaction {
 /// None if `all` is 0.
 [[nodiscard]] std::optional<double> share_of(std::size_t part, std::size_t all);
 
-}  // namespace mechane::cli
+}  // namespace mechane::visits
