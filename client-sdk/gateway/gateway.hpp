@@ -13,12 +13,9 @@ namespace mechane::gateway {
 struct GatewayOptions {
   WebServerOptions web;
   std::uint32_t domain = 0;
-  std::filesystem::path app;        ///< folder of the built web app; empty: there is none
-  std::filesystem::path state;      ///< accounts, certificate, audit log; made where it is missing
-  std::filesystem::path records;    ///< the server's; empty: no visits are shown
-  std::filesystem::path scenarios;  ///< the server's exhibits, to play visits back; empty: none are played back
-  std::uint32_t playback_domain =
-      210;  ///< DDS domain of the first one that is being prepared; the next one has the next
+  std::filesystem::path app;      ///< folder of the built web app; empty: there is none
+  std::filesystem::path state;    ///< accounts, certificate, audit log; made where it is missing
+  std::filesystem::path records;  ///< the server's; empty: no visits are shown
   std::vector<std::string> kiosks{"kiosk-1"};
   bool plain = false;  ///< beyond this machine without TLS, too
   Duration token_idle = std::chrono::minutes(30);
