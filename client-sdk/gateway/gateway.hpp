@@ -13,11 +13,9 @@ namespace mechane::gateway {
 struct GatewayOptions {
   WebServerOptions web;
   std::uint32_t domain = 0;
-  std::filesystem::path app;        ///< folder of the built web app; empty: there is none
-  std::filesystem::path state;      ///< accounts, certificate, audit log, orders; made where it is missing
-  std::filesystem::path records;    ///< the server's; empty: no visits are shown
-  std::filesystem::path scenarios;  ///< the server's exhibits, to play visits back; empty: none are played back
-  std::uint32_t playback_domain = 210;  ///< of the first visit that is being played back; the second has the next one
+  std::filesystem::path app;      ///< folder of the built web app; empty: there is none
+  std::filesystem::path state;    ///< accounts, certificate, audit log, remarks, orders; made where it is missing
+  std::filesystem::path records;  ///< the server's; empty: no visits are shown
   std::vector<std::string> kiosks{"kiosk-1"};
   bool plain = false;                         ///< beyond this machine without TLS, too
   std::string wake_to = "255.255.255.255:9";  ///< where packets go that wake kiosks

@@ -28,11 +28,6 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--app", o.app, "folder of the built web app")->capture_default_str();
   app.add_option("--state", o.state, "folder of accounts, certificate and audit log")->capture_default_str();
   app.add_option("--records", o.records, "the server's folder of records, to show visits");
-  app.add_option("--scenarios", o.scenarios, "the server's folder of exhibits, to play visits back");
-  app.add_option("--playback-domain", o.playback_domain,
-                 "first of two DDS domains, with no server in them, for playing back")
-      ->check(CLI::Range(0, 229))
-      ->capture_default_str();
   auto* certificate = app.add_option("--tls-cert", o.web.certificate, "the certificate, PEM; without: one made here");
   auto* key = app.add_option("--tls-key", o.web.key, "its key, PEM")->needs(certificate);
   certificate->needs(key);

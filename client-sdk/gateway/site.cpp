@@ -80,7 +80,6 @@ GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accou
 GatewaySite::~GatewaySite() {
   waiting_.clear();  // these hold hubs, too
   hubs_.clear();     // while the slow thread is there
-  playbacks_ = {};
 }
 
 const Session* GatewaySite::session_of(const HttpRequest& request) {
@@ -111,7 +110,7 @@ void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
   if (const auto file = after(request.path, "/app/"))
     return serve_file(request, {options_.app, *file, "", file->starts_with("assets/")}, done);
   const bool page = request.path == "/" || request.path == "/console" || request.path.starts_with("/console/") ||
-                    request.path.starts_with("/kiosk/") || request.path.starts_with("/playback/");
+                    request.path.starts_with("/kiosk/");
   if (!page) return done(nothing_here());
   if (const auto kiosk = after(request.path, "/kiosk/");
       kiosk && session_of(request) == nullptr && in_maintenance(operations_.state(), *kiosk, wall_now()))
@@ -312,7 +311,6 @@ void GatewaySite::tick() {
   const TimePoint now = site_now();
   for (const auto& [kiosk, hub] : hubs_)
     hub->tick(now);
-  playbacks_.tick(now);
   if (now < next_look_) return;
   next_look_ = now + kLookAgain;
   keeper_.tick(*this, wall_now(), now);

@@ -17,7 +17,6 @@
 #include "client-sdk/gateway/kiosk_hub.hpp"
 #include "client-sdk/gateway/kiosk_keeper.hpp"
 #include "client-sdk/gateway/operations.hpp"
-#include "client-sdk/gateway/playback.hpp"
 #include "client-sdk/gateway/sessions.hpp"
 #include "client-sdk/gateway/visits_desk.hpp"
 
@@ -61,8 +60,6 @@ class GatewaySite final : public Site {
   [[nodiscard]] Operations& operations() { return operations_; }
   [[nodiscard]] Sessions& sessions() { return sessions_; }
   [[nodiscard]] VisitsDesk& visits() { return visits_; }
-  [[nodiscard]] PlaybackShelf& playbacks() { return playbacks_; }
-  [[nodiscard]] const Backstage& backstage() const { return backstage_; }
   /// Hashes or checks a password on a thread of its own. False: too many are waiting.
   [[nodiscard]] bool on_passwords(std::function<std::function<void()>()> work);
 
@@ -105,7 +102,6 @@ class GatewaySite final : public Site {
   Worker disk_{"gateway-disk"};
   Worker password_thread_{"gateway-words"};
   const Backstage backstage_;
-  PlaybackShelf playbacks_;
 };
 
 }  // namespace mechane::gateway

@@ -9,9 +9,6 @@ async function start(): Promise<void> {
     const { default: Kiosk } = await import('./kiosk/Kiosk.svelte');
     const token = new URLSearchParams(location.search).get('token') ?? '';
     mount(Kiosk, { target, props: { kiosk: decodeURIComponent(kiosk[1]!), token } });
-  } else if (location.pathname.startsWith('/playback/')) {
-    const { default: Playback } = await import('./playback/Playback.svelte');
-    mount(Playback, { target, props: { visit: decodeURIComponent(location.pathname.slice('/playback/'.length)) } });
   } else {
     const { default: Console } = await import('./console/Console.svelte');
     mount(Console, { target });

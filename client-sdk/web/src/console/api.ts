@@ -1,6 +1,6 @@
 // The gateway's JSON API, as the console uses it. An error is a sentence: what happened, and what to do.
 
-import { playbackOf, remarksOf, visitsAddress, visitsOf, type PlaybackState, type Remark, type VisitsFigures, type VisitsQuery } from './visits';
+import { remarksOf, visitsAddress, visitsOf, type Remark, type VisitsFigures, type VisitsQuery } from './visits';
 
 export interface User {
   user: string;
@@ -110,14 +110,6 @@ export class Api {
   async remark(visit: string, text: string, at: number | null): Promise<Remark[]> {
     const said = await this.json('POST', `/api/visits/${encodeURIComponent(visit)}/remarks`, at === null ? { text } : { text, at });
     return remarksOf(fields(said).remarks);
-  }
-  /** Begins to prepare a visit's playback, or tells how far it is. */
-  async playback(visit: string, begin: boolean): Promise<PlaybackState> {
-    const address = `/api/visits/${encodeURIComponent(visit)}/playback`;
-    return playbackOf(await (begin ? this.json('POST', address, {}) : this.json('GET', address)));
-  }
-  async tape(visit: string): Promise<ArrayBuffer> {
-    return (await this.send('GET', `/api/visits/${encodeURIComponent(visit)}/tape`)).arrayBuffer();
   }
 
   async json(method: string, path: string, body?: object): Promise<unknown> {
