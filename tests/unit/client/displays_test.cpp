@@ -23,7 +23,7 @@ Error refusal_of(const std::string& name, const std::string& value) {
 }
 
 TEST(DisplaySettings, each_is_read_as_it_is_written) {
-  DisplaySettings all{0.25, true, "en", true, true, "both", 90, false, 33, "cached"};
+  DisplaySettings all{0.25, true, "en", true, true, "both", 90, false, 33, "cached", "closed", "Γεια", "Hello"};
   DisplaySettings read;
   ASSERT_TRUE(client::apply(settings_of(all), read).has_value());
   EXPECT_EQ(read, all);
@@ -41,6 +41,9 @@ TEST(DisplaySettings, what_is_out_of_its_range_is_refused_with_the_range) {
   EXPECT_THAT(refusal_of("attract-after", "4"), is_error(ErrorCode::invalid_value, 0, {"5 to 86400"}));
   EXPECT_THAT(refusal_of("quality", "best"),
               is_error(ErrorCode::invalid_value, 0, {"auto, high, medium, low, cached"}));
+  EXPECT_THAT(refusal_of("sign", "open"), is_error(ErrorCode::invalid_value, 0, {"none, closed, maintenance"}));
+  for (const std::string& message : {std::string(241, 'x'), std::string("a\nb"), std::string("\xff")})
+    EXPECT_THAT(refusal_of("message-el", message), is_error(ErrorCode::invalid_value, 0, {"240 bytes"})) << message;
   EXPECT_THAT(refusal_of("colour", "red"), is_error(ErrorCode::unknown_name, 0, {"\'colour\'", "volume, mute"}));
   EXPECT_EQ(refusal_of("\x1b[2J", "1").to_string().find('\x1b'), std::string::npos) << "it may stand on a terminal";
 }

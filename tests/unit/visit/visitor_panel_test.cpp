@@ -96,6 +96,37 @@ TEST_F(VisitorPanelTest, the_way_home_is_offered_where_it_leads_elsewhere) {
   EXPECT_FALSE(panel.take_requests().home);
 }
 
+TEST_F(VisitorPanelTest, a_message_is_written_in_the_language_of_the_display) {
+  client::DisplaySettings settings;
+  settings.message_el = "Γεια";
+  settings.message_en = "Hello";
+  VisitorPanel panel(panel_settings(settings));
+  EXPECT_EQ(look(panel).message, "Γεια");
+  settings.language = "en";
+  panel.change(panel_settings(settings));
+  EXPECT_EQ(look(panel).message, "Hello");
+  settings.message_en = "";
+  panel.change(panel_settings(settings));
+  EXPECT_EQ(look(panel).message, "Γεια") << "better than nothing";
+}
+
+TEST_F(VisitorPanelTest, a_sign_takes_all_other_words_away) {
+  client::DisplaySettings settings;
+  settings.language = "en";
+  settings.sign = "maintenance";
+  EXPECT_TRUE(settings.silent());
+  VisitorPanel panel(panel_settings(settings));
+  picture::OverlayContent content;
+  content.caption = "Turn the crank";
+  panel.update({&status, presentation, &frame, "village"}, now);
+  panel.write(content, now);
+  EXPECT_EQ(content.caption, "");
+  EXPECT_TRUE(content.corner.empty());
+  ASSERT_TRUE(content.panel);
+  EXPECT_EQ(content.panel->title, "Under maintenance");
+  EXPECT_TRUE(content.panel->answers.empty() && !content.panel->leave) << "there is nothing to press";
+}
+
 TEST_F(VisitorPanelTest, a_kiosk_that_is_left_alone_goes_home_by_itself) {
   VisitorPanel panel({"en", AskWhen::none, {}, seconds(60)});
   look(panel);
