@@ -217,8 +217,8 @@ export class KioskSession {
     this.frame = this.history.at(now - kDelay) ?? this.frame;
     this.keys.pass((now - this.lastAt) / 1000);
     this.lastAt = now;
-    const phase = this.state.pointer?.phase;
-    const dragging = this.pointer.isDown || this.keys.holds || phase === 'holding' || phase === 'reaching';
+    const hands = this.state.pointer ? [this.state.pointer, ...this.state.pointer.others] : [];
+    const dragging = this.pointer.isDown || this.keys.holds || hands.some((h) => h.phase === 'holding' || h.phase === 'reaching');
     this.picture.draw(this.frame, now, dragging, this.corner);
     this.findHover(now);
     this.drawAid();
