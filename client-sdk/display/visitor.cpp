@@ -31,8 +31,10 @@ Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std:
   news_.world().show_forces(forces_shown_);
   // A recording cannot be touched.
   if (!options.touch || window_ == nullptr || !options.source.play.empty()) return;
-  if (!hand) hand = std::make_unique<pointer::PointerLink>(options.kiosk, options.domain);
-  pointer_.emplace(std::move(hand));
+  if (hand)
+    pointer_.emplace(std::move(hand));
+  else
+    pointer_.emplace(options.kiosk, options.domain);
 }
 
 void Visitor::forget_world() {

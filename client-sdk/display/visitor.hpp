@@ -24,7 +24,7 @@ class Visitor {
   using SceneNow = std::function<picture::RenderScene()>;
 
   /// `window` is null offscreen, where nothing can be pressed. `attract` may be null. `hand`: what the pointer moves;
-  /// null: a hand of the kiosk.
+  /// null: hands of the kiosk.
   Visitor(const DisplayOptions& options, Window* window, News& news, std::unique_ptr<AttractLoop> attract,
           std::unique_ptr<pointer::PointerTouch> hand = nullptr);
 

@@ -40,7 +40,8 @@ Browser::Browser(std::shared_ptr<KioskHub> hub, std::string token)
       hand_([this] { return std::make_unique<pointer::PointerLink>(hub_->kiosk(), hub_->backstage().domain); }) {}
 
 Browser::~Browser() {
-  hub_->backstage().end_slowly(hand_.take_away());
+  for (auto& hand : hand_.take_away())
+    hub_->backstage().end_slowly(std::move(hand));
   hub_->backstage().end_slowly(std::move(seat_));
 }
 
@@ -184,9 +185,9 @@ void Browser::refresh(TimePoint now) {
 
 void Browser::follow(TimePoint now) {
   hand_.pass(to_seconds(now - std::exchange(followed_, now)));
-  const auto view = hand_.view();
-  if (!view) return;
-  std::string text = pointer_text(*view, hand_.link());
+  const std::vector<HandTold> hands = hand_.told();
+  if (hands.empty()) return;
+  std::string text = pointer_text(hands);
   if (text == told_pointer_) return;
   told_pointer_ = text;
   say("pointer", std::move(text));

@@ -6,7 +6,17 @@ namespace mechane::gateway {
 
 using pointer::HandRequest;
 using pointer::PointerEvent;
-using pointer::PointerView;
+
+namespace {
+
+/// Whether hands can take it now.
+bool can_take(const pointer::PointerWorld& world, std::uint32_t index) {
+  const client::SceneObject* object = pointer::object_of(world.objects, index);
+  const auto senses = pointer::senses_of(world, index, false);
+  return object != nullptr && object->movable && senses && senses->leeway.taken;
+}
+
+}  // namespace
 
 void BrowserHand::take(const PointerMessage& message, const pointer::PointerWorld& world) {
   sight_ = message.sight;
@@ -18,59 +28,60 @@ void BrowserHand::take_one(const PointerMessage::One& one, const picture::Sight&
                            const pointer::PointerWorld& world) {
   const PointerEvent& event = one.event;
   if (event.kind == PointerEvent::Kind::wheel) {
-    if (hand_) hand_->deepen(pointer::kNotch * event.amount);
+    if (auto* hand = hands_.meant(event.finger)) hand->deepen(pointer::kNotch * event.amount);
     return;
   }
   if (event.kind == PointerEvent::Kind::turn_wheel) {
-    if (hand_) hand_->turn(pointer::kNotchTurn_rad * event.amount);
+    if (auto* hand = hands_.meant(event.finger)) hand->turn(pointer::kNotchTurn_rad * event.amount);
     return;
   }
-  if (event.kind == PointerEvent::Kind::press)
+  std::optional<std::uint32_t> on;
+  if (event.kind == PointerEvent::Kind::press) {
     means_ = event.finger == pointer::kMouse ? pointer::PointerMeans::mouse : pointer::PointerMeans::fingers;
-  const PointerView view = hand_ ? hand_->view() : PointerView{};
-  for (const HandRequest& request : fingers_.take(event, pointer::state_of(view, sight.picture))) {
+    if (one.pick && can_take(world, one.pick->object)) on = one.pick->object;
+  }
+  for (const auto& [hand, request] : hands_.take(event, on, sight.picture)) {
     if (request.kind == HandRequest::Kind::take) {
-      if (!press(one, request.place, sight, world)) fingers_.missed();
-    } else if (hand_) {
-      pointer::fulfil(request, *hand_);
+      if (!on || !press(hand, one, request.place, sight)) hands_.missed(hand);
+    } else if (hands_.at(hand) != nullptr) {
+      pointer::fulfil(request, *hands_.at(hand));
     }
   }
 }
 
-/// False: there is nothing to take.
-bool BrowserHand::press(const PointerMessage::One& one, picture::PixelPlace place, const picture::Sight& sight,
-                        const pointer::PointerWorld& world) {
-  if (!one.pick) return false;
-  const client::SceneObject* object = pointer::object_of(world.objects, one.pick->object);
-  const auto senses = pointer::senses_of(world, one.pick->object, false);
-  if (object == nullptr || !object->movable || !senses || !senses->leeway.taken) return false;
-  if (!hand_) hand_ = make_();
-  if (!hand_) return false;
-  hand_->press(sight, place, *one.pick);
+/// False: there is no hand to take it with.
+bool BrowserHand::press(std::size_t hand, const PointerMessage::One& one, picture::PixelPlace place,
+                        const picture::Sight& sight) {
+  pointer::PointerTouch* const touch = hands_.made(hand);
+  if (touch == nullptr) return false;
+  touch->press(sight, place, *one.pick);
   return true;
 }
 
 void BrowserHand::pass(double dt_s) {
-  for (const HandRequest& request : fingers_.pass(dt_s))
-    if (hand_) pointer::fulfil(request, *hand_);
+  for (const auto& [hand, request] : hands_.pass(dt_s))
+    if (hands_.at(hand) != nullptr) pointer::fulfil(request, *hands_.at(hand));
 }
 
 void BrowserHand::release() {
   PointerEvent gone;
   gone.kind = PointerEvent::Kind::gone;
-  (void)fingers_.take(gone, {});
-  if (hand_) hand_->release();
+  (void)hands_.take(gone, {}, sight_.picture);
+  for (std::size_t hand = 0; hand < pointer::kMostFingerHands; ++hand)
+    if (hands_.at(hand) != nullptr) hands_.at(hand)->release();
 }
 
-std::optional<PointerView> BrowserHand::view() {
-  if (!hand_) return std::nullopt;
-  return hand_->view();
+std::vector<HandTold> BrowserHand::told() const {
+  std::vector<HandTold> told;
+  for (const std::size_t hand : hands_.shown())
+    told.push_back({hands_.view(hand), hands_.state(hand)});
+  return told;
 }
 
-std::string BrowserHand::note(const std::string& language) {
-  if (!hand_) return {};
+std::string BrowserHand::note(const std::string& language) const {
   picture::OverlayContent content;
-  pointer::add_pointer_aid({sight_, hand_->view(), {}, {}, hand_->state(), means_}, language, content);
+  for (const HandTold& hand : told())
+    pointer::add_pointer_aid({sight_, hand.view, {}, {}, hand.link, means_}, language, content);
   return content.note;
 }
 

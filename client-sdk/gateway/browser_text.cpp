@@ -224,21 +224,33 @@ std::string overlay_text(const BrowserWords& words) {
                   {"highContrast", content.style.high_contrast}});
 }
 
-std::string pointer_text(const pointer::PointerView& view, pointer::PointerLinkState link) {
+namespace {
+
+TextJson hand_json(const HandTold& hand) {
   using View = pointer::PointerView;
   constexpr std::array<std::string_view, 4> kPhases{"resting", "reaching", "holding", "leaving"};
   constexpr std::array<std::string_view, 3> kDrags{"carry", "turn", "slide"};
   constexpr std::array<std::string_view, 4> kLinks{"none", "waiting", "joined", "refused"};
-  TextJson out{{"type", "pointer"},
-               {"phase", kPhases[static_cast<std::size_t>(view.phase)]},
+  const View& view = hand.view;
+  TextJson out{{"phase", kPhases[static_cast<std::size_t>(view.phase)]},
                {"drag", kDrags[static_cast<std::size_t>(view.drag)]},
                {"object", view.object},
                {"p", vector_json(view.p_WH)},
                {"radius", view.radius_m},
-               {"link", kLinks[static_cast<std::size_t>(link)]}};
+               {"link", kLinks[static_cast<std::size_t>(hand.link)]}};
   if (view.p_WG) out["goal"] = vector_json(*view.p_WG);
   if (view.phase == View::Phase::holding && view.drag == View::Drag::turn)
     out["axle"] = {{"p", vector_json(view.axle.p_W)}, {"d", vector_json(view.axle.a_W)}};
+  return out;
+}
+
+}  // namespace
+
+std::string pointer_text(std::span<const HandTold> hands) {
+  TextJson out = hand_json(hands.front());
+  out["type"] = "pointer";
+  for (const HandTold& other : hands.subspan(1))
+    out["others"].push_back(hand_json(other));
   return written(out);
 }
 

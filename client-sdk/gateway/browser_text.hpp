@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "client-sdk/gateway/browser_hand.hpp"
 #include "client-sdk/picture/overlay_content.hpp"
-#include "client-sdk/pointer/pointer_link.hpp"
 #include <mechane/client/client.hpp>
 #include <mechane/client/displays.hpp>
 
@@ -26,7 +26,8 @@ struct BrowserWords {
   std::string subtitle;
 };
 [[nodiscard]] std::string overlay_text(const BrowserWords& words);
-[[nodiscard]] std::string pointer_text(const pointer::PointerView& view, pointer::PointerLinkState link);
+/// At least one.
+[[nodiscard]] std::string pointer_text(std::span<const HandTold> hands);
 [[nodiscard]] std::string event_text(const client::WorldEvent& event);
 [[nodiscard]] std::string settings_text(const client::DisplaySettings& settings);
 [[nodiscard]] std::string bye_text(const std::string& reason, const std::string& remedy);

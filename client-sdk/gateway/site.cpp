@@ -107,6 +107,11 @@ void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
   }
   if (const auto hash = after(request.path, "/content/")) return serve_content(request, *hash, done);
   if (const auto rest = after(request.path, "/exhibit/")) return serve_exhibit(request, *rest, done);
+  if (request.path == "/app/sw.js")  // the app's service worker, for all pages
+    return serve_file(request, {options_.app, "sw.js"}, [done](HttpAnswer answer) {
+      answer.headers.emplace_back("Service-Worker-Allowed", "/");
+      done(std::move(answer));
+    });
   if (const auto file = after(request.path, "/app/"))
     return serve_file(request, {options_.app, *file, "", file->starts_with("assets/")}, done);
   const bool page = request.path == "/" || request.path == "/console" || request.path.starts_with("/console/") ||

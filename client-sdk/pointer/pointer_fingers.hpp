@@ -3,6 +3,7 @@
 // clock of its own.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct HandState {
   bool busy = false;     ///< it reaches or holds
   bool carries = false;  ///< the held thing moves freely, not around an axle or along a track
   picture::PixelSize picture;
+  std::optional<std::uint32_t> object{};  ///< what it reaches for or holds
 };
 
 /// Makes the hand's motions free of jumps: a finger moves the hand by as much as it moves itself.
@@ -37,6 +39,12 @@ class PointerFingers {
   /// A finger without events for half a minute was lifted unnoticed. The mouse may rest for any time.
   [[nodiscard]] std::vector<HandRequest> pass(double dt_s);
   [[nodiscard]] bool any() const { return first_.has_value(); }
+  /// Whether this finger is down and the hand's.
+  [[nodiscard]] bool has(FingerId id) const { return (first_ && first_->id == id) || (second_ && second_->id == id); }
+  /// Where the hand's only finger is; none: it has none or two, or the mouse.
+  [[nodiscard]] std::optional<picture::PixelPlace> single_finger_at() const {
+    return first_ && !second_ && first_->id != kMouse ? std::optional(first_->at) : std::nullopt;
+  }
 
  private:
   struct Finger {

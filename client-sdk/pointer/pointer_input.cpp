@@ -23,6 +23,10 @@ picture::PixelPlace middle_of(picture::PixelSize picture) {
 
 }  // namespace
 
+PointerInput::PointerInput(std::unique_ptr<PointerTouch> hand)
+    : PointerInput(
+          [hand = std::make_shared<std::unique_ptr<PointerTouch>>(std::move(hand))] { return std::move(*hand); }) {}
+
 void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bool covered) {
   using Kind = PointerEvent::Kind;
   stirred_ = stirred_ || (event.kind != Kind::left && event.kind != Kind::gone);
@@ -35,7 +39,7 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
       if (event.finger == kMouse) {
         hover_ = picture::PixelPlace{event.x, event.y};
         hover_moved_ = true;
-        if (!by_keys_) {  // moving the mouse ends the use of keys
+        if (!keys_hand_) {  // moving the mouse ends the use of keys
           focus_.reset();
           means_ = PointerMeans::mouse;
         }
@@ -47,9 +51,11 @@ void PointerInput::take(const PointerEvent& event, const PointerScene& scene, bo
     case Kind::gone:
       return take_fingers(event, scene);
     case Kind::wheel:
-      return link_->deepen(kNotch * event.amount);
+      if (PointerTouch* hand = meant(event.finger)) hand->deepen(kNotch * event.amount);
+      return;
     case Kind::turn_wheel:
-      return link_->turn(kNotchTurn_rad * event.amount);
+      if (PointerTouch* hand = meant(event.finger)) hand->turn(kNotchTurn_rad * event.amount);
+      return;
     case Kind::left:
       hover_.reset();
       under_hover_ = {};
@@ -77,36 +83,48 @@ void PointerInput::take_fingers(const PointerEvent& event, const PointerScene& s
       under_hover_ = {};
     }
   }
-  if (event.kind == PointerEvent::Kind::gone && std::exchange(by_keys_, false)) link_->release();
-  HandState hand = state_of(link_->view(), scene.picture);
-  hand.busy = hand.busy && !by_keys_;
-  follow(fingers_.take(event, hand), scene);
+  if (event.kind == PointerEvent::Kind::gone && keys_hand_) {
+    if (PointerTouch* hand = hands_.at(*keys_hand_)) hand->release();
+    keys_hand_.reset();
+  }
+  const bool presses = event.kind == PointerEvent::Kind::press && std::isfinite(event.x) && std::isfinite(event.y);
+  const std::optional<Target> target = presses ? target_at(scene, {event.x, event.y}) : std::nullopt;
+  const auto on = target ? std::optional(target->touched.object) : std::nullopt;
+  follow(hands_.take(event, on, scene.picture, keys_hand_), scene, target);
 }
 
-void PointerInput::follow(const std::vector<HandRequest>& requests, const PointerScene& scene) {
-  for (HandRequest request : requests) {
+void PointerInput::follow(const std::vector<HandOrder>& orders, const PointerScene& scene,
+                          const std::optional<Target>& target) {
+  for (auto [hand, request] : orders) {
     if (request.kind == HandRequest::Kind::take) {
-      if (!press(scene, request.place)) fingers_.missed();
+      if (!press(hand, target)) hands_.missed(hand);
       continue;
     }
-    if (by_keys_) continue;
+    if (hand == keys_hand_ || hands_.at(hand) == nullptr) continue;
     if (request.kind == HandRequest::Kind::move) {
       const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, request.place);
       if (!seen) continue;
       request.place = seen->place;
     }
-    fulfil(request, *link_);
+    fulfil(request, *hands_.at(hand));
   }
 }
 
-/// False: there is nothing to take.
-bool PointerInput::press(const PointerScene& scene, picture::PixelPlace whole) {
+/// None: there is nothing to take.
+std::optional<PointerInput::Target> PointerInput::target_at(const PointerScene& scene, picture::PixelPlace whole) {
   const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, whole);
-  if (!seen) return false;
+  if (!seen) return {};
   const auto touched = under_finger(scene, seen->sight, seen->place).takeable;
-  if (!touched) return false;
-  by_keys_ = false;
-  link_->press(seen->sight, seen->place, *touched);
+  if (!touched) return {};
+  return Target{seen->sight, seen->place, *touched};
+}
+
+/// False: there is nothing to take, or no hand to take it with.
+bool PointerInput::press(std::size_t hand, const std::optional<Target>& target) {
+  PointerTouch* const touch = target ? hands_.made(hand) : nullptr;
+  if (touch == nullptr) return false;
+  if (keys_hand_ == hand) keys_hand_.reset();
+  touch->press(target->sight, target->place, target->touched);
   return true;
 }
 
@@ -117,14 +135,15 @@ void PointerInput::take_key(PointerKey key, const PointerScene& scene) {
     return focus_next(scene, key == PointerKey::next ? 1 : -1);
   if (!focus_) focus_ = middle_of(scene.picture);
   if (key != PointerKey::take) return;
-  const PointerView::Phase phase = link_->view().phase;
-  if (phase == PointerView::Phase::reaching || phase == PointerView::Phase::holding) return link_->release();
-  by_keys_ = press(scene, *focus_);
+  const auto held = keys_hand_ ? keys_hand_ : hands_.hand_of(kMouse);
+  if (held && state_of(hands_.view(*held), scene.picture).busy) return hands_.at(*held)->release();
+  const auto hand = hands_.idle();
+  keys_hand_ = hand && press(*hand, target_at(scene, *focus_)) ? hand : std::nullopt;
 }
 
 void PointerInput::focus_next(const PointerScene& scene, int step) {
   const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, middle_of(scene.picture));
-  if (!seen || by_keys_) return;
+  if (!seen || keys_hand_) return;
   const std::vector<picture::PixelPlace> places = places_to_take(scene, seen->sight);
   if (places.empty()) return;
   const double from = focus_ ? focus_->x : (step > 0 ? -1.0 : 1e9);
@@ -142,27 +161,29 @@ void PointerInput::go_on_with_keys(const PointerScene& scene, double dt_s) {
   const double far = (held(Key::farther) ? 1 : 0) - (held(Key::nearer) ? 1 : 0);
   const double round = (held(Key::turn_right) ? 1 : 0) - (held(Key::turn_left) ? 1 : 0);
   stirred_ = stirred_ || round != 0;
-  if (round != 0) link_->turn(round * kKeyTwist_rad_per_s * dt_s);
+  PointerTouch* const turned = meant(kMouse);
+  if (round != 0 && turned != nullptr) turned->turn(round * kKeyTwist_rad_per_s * dt_s);
   if (!focus_ || (across == 0 && down == 0 && far == 0)) return;
   stirred_ = true;
-  const PointerView view = link_->view();
-  const bool holding = view.phase == PointerView::Phase::holding && by_keys_;
-  if (holding && view.drag == PointerView::Drag::turn) return link_->turn((across + down) * kKeyTurn_rad_per_s * dt_s);
-  if (holding && far != 0) link_->deepen(far * kNotch * kKeyNotches_per_s * dt_s);
+  PointerTouch* const hand = keys_hand_ ? hands_.at(*keys_hand_) : nullptr;
+  const PointerView view = hand != nullptr ? hand->view() : PointerView();
+  const bool holding = view.phase == PointerView::Phase::holding;
+  if (holding && view.drag == PointerView::Drag::turn) return hand->turn((across + down) * kKeyTurn_rad_per_s * dt_s);
+  if (holding && far != 0) hand->deepen(far * kNotch * kKeyNotches_per_s * dt_s);
   const double step = kFocusSpeed * scene.picture.height * dt_s;
   focus_->x = std::clamp(focus_->x + across * step, 0.0, scene.picture.width - 1.0);
   focus_->y = std::clamp(focus_->y + down * step, 0.0, scene.picture.height - 1.0);
   const auto seen = picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, *focus_);
-  if (seen && by_keys_) link_->move(seen->place);
+  if (seen && hand != nullptr) hand->move(seen->place);
 }
 
 void PointerInput::update(const PointerScene& scene, TimePoint now) {
   const double dt_s = std::max(to_seconds(now - updated_), 0.0);
   updated_ = now;
-  follow(fingers_.pass(dt_s), scene);
+  follow(hands_.pass(dt_s), scene, {});
   go_on_with_keys(scene, std::min(dt_s, kLongestPicture_s));
-  const bool idle = link_->view().phase == PointerView::Phase::resting;
-  if (idle) by_keys_ = false;
+  const bool idle = is_away();
+  if (keys_hand_ && hands_.view(*keys_hand_).phase == PointerView::Phase::resting) keys_hand_.reset();
   const std::optional<picture::PixelPlace> looks_at = focus_ ? focus_ : hover_;
   if (!idle || !looks_at || now - looked_ < kLookUnderHover) return;
   if (!hover_moved_ && !focus_) return;
@@ -178,8 +199,8 @@ std::optional<picture::Touched> PointerInput::pointed_at() const {
 }
 
 bool PointerInput::rests(TimePoint now) {
-  const bool stirs = by_keys_ || hover_moved_ || focus_ || stirred_ || std::ranges::any_of(held_, std::identity());
-  if (stirs || link_->view().phase != PointerView::Phase::resting) return false;
+  const bool stirs = keys_hand_ || hover_moved_ || focus_ || stirred_ || std::ranges::any_of(held_, std::identity());
+  if (stirs || !is_away()) return false;
   updated_ = now;
   return true;
 }
@@ -190,11 +211,18 @@ void PointerInput::write(picture::OverlayContent& content, const PointerScene& s
   const auto seen =
       picture::seen_place(scene.scene.camera, scene.stereo, scene.picture, at.value_or(middle_of(scene.picture)));
   if (!seen || content.panel) return;
-  const PointerView view = link_->view();
-  PointerAid aid{seen->sight, view, {}, {}, link_->state(), means_};
-  if (view.phase == PointerView::Phase::resting && under_hover_.takeable) aid.p_WT = under_hover_.takeable->p_WT;
+  PointerAid aid{seen->sight, {}, {}, {}, PointerLinkState::none, means_};
+  if (is_away() && under_hover_.takeable) aid.p_WT = under_hover_.takeable->p_WT;
   if (focus_) aid.focus = seen->place;
-  add_pointer_aid(aid, language, content);
+  const std::vector<std::size_t> shown = hands_.shown();
+  if (shown.empty()) add_pointer_aid(aid, language, content);
+  for (const std::size_t hand : shown) {
+    aid.view = hands_.view(hand);
+    aid.link = hands_.state(hand);
+    add_pointer_aid(aid, language, content);
+    aid.p_WT.reset();
+    aid.focus.reset();
+  }
 }
 
 }  // namespace mechane::pointer

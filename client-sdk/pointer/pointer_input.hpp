@@ -1,4 +1,4 @@
-// From a window's events to the display's own hand, and its hints in the picture: a ring on a thing that can be taken,
+// From a window's events to the display's own hands, and their hints in the picture: a ring on a thing that can be taken,
 // dots along its path, a few words. Input is a mouse, fingers, or keys: Tab goes to the next thing that can be taken,
 // Space takes and releases it, arrows move it.
 #pragma once
@@ -13,8 +13,7 @@
 #include "client-sdk/picture/picking.hpp"
 #include "client-sdk/pointer/pointer_aid.hpp"
 #include "client-sdk/pointer/pointer_event.hpp"
-#include "client-sdk/pointer/pointer_fingers.hpp"
-#include "client-sdk/pointer/pointer_link.hpp"
+#include "client-sdk/pointer/pointer_hands.hpp"
 
 namespace mechane::pointer {
 
@@ -49,10 +48,11 @@ struct UnderFinger {
 /// On the display's thread.
 class PointerInput {
  public:
+  explicit PointerInput(MakeHand make) : hands_(std::move(make)) {}
   PointerInput(const std::string& kiosk, std::uint32_t domain)
-      : PointerInput(std::make_unique<PointerLink>(kiosk, domain)) {}
-  /// Moves a hand of the caller's, for tests.
-  explicit PointerInput(std::unique_ptr<PointerTouch> hand) : link_(std::move(hand)) {}
+      : PointerInput([kiosk, domain] { return std::make_unique<PointerLink>(kiosk, domain); }) {}
+  /// Moves this hand and no other.
+  explicit PointerInput(std::unique_ptr<PointerTouch> hand);
 
   /// `covered`: a button or a panel lies there.
   void take(const PointerEvent& event, const PointerScene& scene, bool covered);
@@ -60,8 +60,8 @@ class PointerInput {
   void update(const PointerScene& scene, TimePoint now);
   /// Whether this picture needs no update(): nothing is held or pressed, and the pointer has not moved.
   [[nodiscard]] bool rests(TimePoint now);
-  /// Whether the hand is at rest: it neither reaches for nor holds anything.
-  [[nodiscard]] bool is_away() const { return link_->view().phase == PointerView::Phase::resting; }
+  /// Whether all hands are at rest: none reaches for or holds anything.
+  [[nodiscard]] bool is_away() const { return hands_.all_rest(); }
   /// The object that the pointer would take, or else is on; none while one is taken.
   [[nodiscard]] std::optional<picture::Touched> pointed_at() const;
   /// Where a mouse that holds nothing is, in pixels of the whole picture.
@@ -72,20 +72,30 @@ class PointerInput {
   void forget_world();
   /// Adds the hints to the overlay.
   void write(picture::OverlayContent& content, const PointerScene& scene, const std::string& language) const;
-  /// Whether somebody moved the hand since the last call.
+  /// Whether somebody moved a hand since the last call.
   [[nodiscard]] bool take_stirred() { return std::exchange(stirred_, false); }
 
  private:
+  /// What a press takes, and from where it is seen.
+  struct Target {
+    picture::Sight sight;
+    picture::PixelPlace place;  ///< in the eye's picture
+    picture::Touched touched;
+  };
   void take_fingers(const PointerEvent& event, const PointerScene& scene);
-  void follow(const std::vector<HandRequest>& requests, const PointerScene& scene);
-  [[nodiscard]] bool press(const PointerScene& scene, picture::PixelPlace whole);
+  void follow(const std::vector<HandOrder>& orders, const PointerScene& scene, const std::optional<Target>& target);
+  [[nodiscard]] static std::optional<Target> target_at(const PointerScene& scene, picture::PixelPlace whole);
+  [[nodiscard]] bool press(std::size_t hand, const std::optional<Target>& target);
   void go_on_with_keys(const PointerScene& scene, double dt_s);
   void take_key(PointerKey key, const PointerScene& scene);
   void focus_next(const PointerScene& scene, int step);
   [[nodiscard]] bool held(PointerKey key) const { return held_[static_cast<std::size_t>(key)]; }
 
-  std::unique_ptr<PointerTouch> link_;
-  PointerFingers fingers_;
+  [[nodiscard]] PointerTouch* meant(FingerId finger) const {
+    return keys_hand_ ? hands_.at(*keys_hand_) : hands_.meant(finger);
+  }
+
+  PointerHands hands_;
   std::optional<picture::PixelPlace> hover_;  ///< of the whole picture
   bool hover_moved_ = false;
   UnderFinger under_hover_;
@@ -93,7 +103,7 @@ class PointerInput {
   TimePoint updated_;
   std::array<bool, kPointerKeys> held_{};     ///< by PointerKey
   std::optional<picture::PixelPlace> focus_;  ///< where the keys point, in the whole picture
-  bool by_keys_ = false;                      ///< the held thing was taken with keys
+  std::optional<std::size_t> keys_hand_;      ///< the hand that keys took something with
   PointerMeans means_ = PointerMeans::mouse;  ///< what was used last
   bool stirred_ = false;
 };

@@ -41,7 +41,9 @@ class Hurry {
 
 HandState state_of(const PointerView& view, picture::PixelSize picture) {
   const bool holds = view.phase == PointerView::Phase::holding;
-  return {holds || view.phase == PointerView::Phase::reaching, holds && view.drag == PointerView::Drag::carry, picture};
+  const bool busy = holds || view.phase == PointerView::Phase::reaching;
+  return {busy, holds && view.drag == PointerView::Drag::carry, picture,
+          busy ? std::optional(view.object) : std::nullopt};
 }
 
 void fulfil(const HandRequest& request, PointerTouch& hand) {

@@ -1,4 +1,4 @@
-// The hand that a display sends while somebody touches its picture: a session of its own at the kiosk, on a thread of
+// A hand that a display sends while somebody touches its picture: a session of its own at the kiosk, on a thread of
 // its own, so that slow drawing does not slow down the hand.
 #pragma once
 

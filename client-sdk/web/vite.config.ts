@@ -2,6 +2,7 @@ import { svelte, vitePreprocess } from '@sveltejs/vite-plugin-svelte';
 import { gzipSync } from 'node:zlib';
 import type { Plugin } from 'vite';
 import { defineConfig } from 'vitest/config';
+import { installable } from './installable';
 
 /** First load of the kiosk page, without meshes: what a tablet fetches before its first picture, compressed. */
 const kMostKb = 1024;
@@ -22,7 +23,7 @@ function firstLoad(): Plugin {
 
 export default defineConfig({
   base: '/app/',
-  plugins: [svelte({ preprocess: vitePreprocess() }), firstLoad()],
+  plugins: [svelte({ preprocess: vitePreprocess() }), firstLoad(), installable()],
   build: { target: 'es2021', assetsInlineLimit: 0, chunkSizeWarningLimit: 1024, emptyOutDir: true },
   test: { environment: 'node', include: ['tests/*.test.ts'] },
 });

@@ -7,7 +7,7 @@ import socket
 import unittest
 
 from browser import Browser, Page, Refused
-from harness import ROOT, SCENARIO, EndToEnd, marked, wait_until
+from harness import ROOT, SCENARIO, EndToEnd, marked, repeat_until, wait_until
 from touch import TouchVisitor, cross, placed
 
 SIZE = (480, 270)
@@ -124,6 +124,58 @@ class Gateway(EndToEnd):
         changed = self.run_command("displays", "set", "--kiosk", "kiosk-1", "--display", "web-1", "large-text=on")
         self.assertEqual(changed.returncode, 0, changed.stderr)
         browser.wait("overlay", lambda overlay: overlay["largeText"])
+        self.assertEqual(process.stop(), 0, process.text())
+
+    @marked("alone")
+    def test_two_fingers_take_two_things_at_once(self):
+        """As two visitors do at one tablet."""
+        scenario = ROOT / "scenarios/odometer/odometer.x3d"
+        server = self.server(scenario=scenario, records=False)
+        process, page = self.gateway()
+        browser = Browser(page, self.path(process))
+        self.addCleanup(browser.close)
+        browser.say(type="press", action="activity:construct")
+        browser.wait("world", lambda world: world["activity"] == "construct")
+        visitor = WebVisitor(browser, scenario, "kiosk-1", self.environment)
+        self.addCleanup(visitor.stop)
+        grips = {move["body"]: [float(x) for x in move["grip"].split()] for move in visitor.visit("construct") if "grip" in move}
+        held_by = lambda hands: {hand["object"] for hand in hands if hand["phase"] == "holding"}
+        held = lambda: held_by([browser.texts.get("pointer", {"phase": ""}), *browser.texts.get("pointer", {}).get("others", [])])
+
+        def say(kind, finger, at, body=None):
+            pick = {"object": visitor.objects[body], "p": placed(visitor.pose(body), grips[body])} if body else None
+            event = {"kind": kind, "x": at[0], "y": at[1], "finger": finger, "pick": pick}
+            browser.say(type="pointer", events=[event], picture=SIZE, camera=visitor.camera())
+        seen = lambda body: visitor.screen.pixel(placed(visitor.pose(body), grips[body]), 1)
+
+        def take(finger, body):
+            say("release", finger, (0, 0))
+            say("press", finger, seen(body), body)
+        objects = {visitor.objects[body] for body in ("TOOTH", "DRUM")}
+        repeat_until(lambda: take(1, "TOOTH"), lambda: visitor.objects["TOOTH"] in held(), 60, "one finger takes a wheel")
+        repeat_until(lambda: take(2, "DRUM"), lambda: held() == objects, 60, "another takes a drum meanwhile")
+        users = lambda: {hand["user"] for hand in browser.frame.hands if hand["holding"]}
+        wait_until(lambda: users() == {2, 3}, 20, "two of the kiosk's hands hold something")
+
+        # Two fingers on one thing are one hand, which they bring nearer as they spread.
+        x, y = seen("TOOTH")
+        before = visitor.pose("TOOTH")["p"]
+        nearer = lambda: math.dist(before, visitor.screen.eye) - math.dist(visitor.pose("TOOTH")["p"], visitor.screen.eye)
+        say("press", 3, (x + 40, y), "TOOTH")
+        for k in range(1, 21):
+            say("move", 3, (x + 40 + k, y))
+        wait_until(lambda: nearer() > 0.1, 20, "the wheel comes nearer")
+        self.assertEqual(users(), {2, 3})
+        self.assertNotIn("user 1", server.text())
+
+        # A third thing takes the last hand; for a fourth none is left.
+        repeat_until(lambda: take(4, "FLAT"), lambda: len(held()) == 3, 60, "a third hand")
+        say("press", 5, seen("VESSEL"), "VESSEL")
+        browser.wait("pointer", lambda hand: hand["link"] == "refused")
+        browser.wait("overlay", lambda overlay: "hands are busy" in overlay["note"] or "απασχολημένα" in overlay["note"])
+        for finger in (5, 4, 3, 1):
+            say("release", finger, (0, 0))
+        browser.wait("pointer", lambda hand: visitor.objects["DRUM"] in held_by([hand]) and not hand.get("others"))
         self.assertEqual(process.stop(), 0, process.text())
 
     @marked("address")

@@ -36,5 +36,5 @@ it('says until when, and is content with a gateway without records', async () =>
   await orders(new Api(ask)).maintain('kiosk-1', true, { minutes: 15 });
   expect(ask.mock.calls[0]![0]).toBe('/api/kiosks/kiosk-1/maintenance');
   expect(ask.mock.calls[0]![1]!.body).toBe('{"on":true,"minutes":15}');
-  expect(await orders(new Api(async () => answer(404, { error: 'no records' }))).visits()).toBeNull();
+  expect(await orders(new Api(async () => answer(404, { error: 'no records' }))).visitsOfADay()).toBeNull();
 });

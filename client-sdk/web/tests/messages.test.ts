@@ -27,6 +27,13 @@ describe('the state', () => {
     expect(state.presentation).toBeNull();
   });
 
+  it('knows each hand of a page', () => {
+    const hand = { phase: 'holding', object: 4, p: [0, 1, 0] };
+    const { pointer } = after({ type: 'pointer', ...hand, others: [{ ...hand, object: 5 }, null] });
+    expect([pointer!, ...pointer!.others].map((h) => [h.phase, h.object])).toEqual([['holding', 4], ['holding', 5]]);
+    expect(after({ type: 'pointer', ...hand }).pointer!.others).toEqual([]);
+  });
+
   it('is whole whatever a message lacks or has wrong', () => {
     for (const type of ['hello', 'link', 'world', 'scene', 'presentation', 'overlay', 'pointer', 'bye']) {
       for (const bad of [{}, { objects: 1, views: 'x', effects: {}, panel: [], gauges: [null], pose: 3, p: [NaN], state: 'x' }])

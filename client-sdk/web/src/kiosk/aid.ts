@@ -1,4 +1,4 @@
-// Rings and dotted lines at the pointer's hand: client-sdk/pointer/pointer_aid.cpp, on a canvas of its own.
+// Rings and dotted lines at this page's hands: client-sdk/pointer/pointer_aid.cpp, on a canvas of its own.
 import { Vector3 } from 'three';
 import type { PointerView } from '../wire/messages';
 
@@ -62,21 +62,22 @@ export function drawAid(context: CanvasRenderingContext2D, aid: Aid): void {
     ring(aid.focus, 30, kGold);
     dot(aid.focus.x, aid.focus.y, 3, kGold);
   }
-  const view = aid.pointer;
-  if (!view || view.phase === 'resting') {
+  const hands = aid.pointer ? [aid.pointer, ...aid.pointer.others].filter((view) => view.phase !== 'resting') : [];
+  if (hands.length === 0) {
     const at = aid.hover && aid.pixelOf(aid.hover);
     if (at) ring(at, 20, kGold);
-    return;
   }
-  const hand = aid.pixelOf(new Vector3(...view.p));
-  if (!hand) return;
-  const holds = view.phase === 'holding';
-  if (holds && view.drag === 'turn' && view.axle) circle(view);
-  const goal = view.goal && aid.pixelOf(new Vector3(...view.goal));
-  if (goal) {
-    line(hand, goal, kWater);
-    ring(goal, 24, kWater);
+  for (const view of hands) {
+    const hand = aid.pixelOf(new Vector3(...view.p));
+    if (!hand) continue;
+    const holds = view.phase === 'holding';
+    if (holds && view.drag === 'turn' && view.axle) circle(view);
+    const goal = view.goal && aid.pixelOf(new Vector3(...view.goal));
+    if (goal) {
+      line(hand, goal, kWater);
+      ring(goal, 24, kWater);
+    }
+    if (view === aid.pointer && view.phase !== 'leaving' && aid.finger) line(aid.finger, hand, kGold);
+    ring(hand, holds ? 13 : 20, kGold);
   }
-  if (view.phase !== 'leaving' && aid.finger) line(aid.finger, hand, kGold);
-  ring(hand, holds ? 13 : 20, kGold);
 }

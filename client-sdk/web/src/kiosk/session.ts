@@ -32,6 +32,8 @@ export interface Thing {
 export interface Shown {
   state: KioskState;
   online: boolean;
+  /** The gateway was looked for in vain. */
+  missed: boolean;
   /** The world moves. */
   live: boolean;
   label: Label | null;
@@ -51,6 +53,7 @@ export class KioskSession {
   private readonly history = new FrameHistory();
   private state: KioskState = kNothingKnown;
   private online = false;
+  private missed = false;
   private frame: Frame | null = null;
   private frameAt = -Infinity;
   private malformed = 0;
@@ -173,6 +176,7 @@ export class KioskSession {
   private goOn(online: boolean): void {
     this.online = online;
     if (!online) {
+      this.missed = true;
       this.state = { ...this.state, pointer: null };
       this.keys.release();
     }
@@ -217,8 +221,8 @@ export class KioskSession {
     this.frame = this.history.at(now - kDelay) ?? this.frame;
     this.keys.pass((now - this.lastAt) / 1000);
     this.lastAt = now;
-    const phase = this.state.pointer?.phase;
-    const dragging = this.pointer.isDown || this.keys.holds || phase === 'holding' || phase === 'reaching';
+    const hands = this.state.pointer ? [this.state.pointer, ...this.state.pointer.others] : [];
+    const dragging = this.pointer.isDown || this.keys.holds || hands.some((h) => h.phase === 'holding' || h.phase === 'reaching');
     this.picture.draw(this.frame, now, dragging, this.corner);
     this.findHover(now);
     this.drawAid();
@@ -303,6 +307,7 @@ export class KioskSession {
     this.changed({
       state: this.state,
       online: this.online,
+      missed: this.missed,
       live: this.isLive(),
       label: this.label(),
       things: this.things(),

@@ -134,6 +134,8 @@ export interface PointerView {
   axle?: { p: Point; d: Point } | null;
   radius: number;
   link: 'none' | 'waiting' | 'joined' | 'refused';
+  /** Further hands of this page, which work at the same time. */
+  others: PointerView[];
 }
 export interface WorldEvent {
   tick: number;
@@ -331,6 +333,7 @@ function pointerOf(m: Fields): PointerView {
     axle,
     radius: number(m.radius),
     link: text(m.link) as PointerView['link'],
+    others: list(m.others).filter(isFields).map(pointerOf),
   };
 }
 

@@ -6,7 +6,7 @@ import { fileURLToPath } from 'node:url';
 import { WebSocketServer } from 'ws';
 
 const kModels = fileURLToPath(new URL('../../../../scenarios/models/', import.meta.url));
-const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
+const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
 const kStill = [0, 0, 0, 0, 0, 0, 1];
 /** As the gateway has it: what the page may not do there, it may not do here. */
 const kPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; " +
@@ -115,7 +115,8 @@ export class StandIn {
       response.writeHead(pathname === '/api/me' ? 401 : 404, { 'content-type': 'application/json' });
       return response.end('{"error":"nobody is signed in","remedy":"sign in"}');
     }
-    response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream', 'content-security-policy': kPolicy });
+    response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream', 'content-security-policy': kPolicy,
+      ...(pathname === '/app/sw.js' && { 'service-worker-allowed': '/' }) });
     return createReadStream(file).pipe(response);
   }
 }
