@@ -2,6 +2,7 @@
 import { Box3, Vector3 } from 'three';
 import { underFinger, placeToTake, type UnderFinger } from '../scene/picking';
 import { Picture, type InsetPlace } from '../scene/picture';
+import { inPlace, type StereoSetup } from '../scene/stereo';
 import { SoundPlayer } from '../sound/player';
 import { soundSources } from '../sound/sources';
 import { Connection } from '../wire/connection';
@@ -71,12 +72,18 @@ export class KioskSession {
     surface: HTMLElement,
     kiosk: string,
     private readonly token: string,
+    stereo: StereoSetup,
     private readonly changed: (shown: Shown) => void,
   ) {
-    this.picture = new Picture(canvas, (hash) => this.address(`/content/${hash}`));
+    this.picture = new Picture(canvas, (hash) => this.address(`/content/${hash}`), stereo);
     const page = {
-      under: (x: number, y: number): UnderFinger => underFinger(this.picture.pickScene(), x, y),
-      view: () => this.picture.view(),
+      placeAt: (x: number, y: number): number => {
+        const at = this.picture.places.findIndex(({ left, top, width, height }) => x < left + width && y < top + height);
+        return at < 0 ? this.picture.places.length - 1 : at;
+      },
+      inPlace: (place: number, x: number, y: number) => inPlace(this.picture.places[place] ?? this.picture.places[0]!, x, y),
+      under: (x: number, y: number, place: number): UnderFinger => underFinger(this.picture.pickScene(place), x, y),
+      view: (place: number) => this.picture.view(place),
       size: (): [number, number] => [this.picture.width, this.picture.height],
       send: (message: object) => this.connection.send(message),
     };
@@ -235,23 +242,27 @@ export class KioskSession {
     }
     if (now - this.hoverAt < kHoverEvery_ms) return;
     this.hoverAt = now;
-    const { seen, takeable } = underFinger(this.picture.pickScene(), at.x, at.y);
+    const { seen, takeable } = underFinger(this.picture.pickScene(this.pointer.place), at.x, at.y);
     this.hover = takeable?.p ?? null;
     this.hoverObject = (takeable ?? seen)?.object ?? null;
   }
   private drawAid(): void {
     const context = this.aid.getContext('2d');
     if (!context) return;
-    context.clearRect(0, 0, this.picture.width, this.picture.height);
+    const { width, height, places } = this.picture;
+    context.clearRect(0, 0, this.aid.width, this.aid.height);
     if (!this.state.mayPoint || this.state.overlay?.panel) return;
     const focus = this.focus && !this.keys.holds ? this.focus.place : null;
-    drawAid(context, {
-      pointer: this.state.pointer,
-      hover: this.hover,
-      focus,
-      finger: this.pointer.hover,
-      pixelOf: (p) => this.picture.pixelOf(p),
-      height: this.picture.height,
+    places.forEach((place, k) => {
+      context.save();
+      context.beginPath();
+      context.rect(place.left, place.top, place.width, place.height);
+      context.clip();
+      context.translate(place.left, place.top);
+      context.scale(place.width / width, place.height / height);
+      const pixel = (p: Vector3): { x: number; y: number } | null => this.picture.pixelOf(p, k);
+      drawAid(context, { pointer: this.state.pointer, hover: this.hover, focus, finger: this.pointer.hover, pixelOf: pixel, height });
+      context.restore();
     });
   }
   private hearSounds(before: Frame | null): void {

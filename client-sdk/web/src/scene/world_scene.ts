@@ -93,7 +93,8 @@ export class WorldScene {
   private grownAbout = '';
   private placed: Placed[] = [];
   private box = new Box3();
-  private interest = new Box3();
+  /** What visitors touch and look at. */
+  interest = new Box3();
   private ground: number | null = null;
   private waterHeight: number | null = null;
   private state: KioskState | null = null;
