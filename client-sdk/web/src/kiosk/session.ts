@@ -12,6 +12,7 @@ import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type Wor
 import { drawAid } from './aid';
 import { KeyHand } from './keys';
 import { PointerIn } from './pointer';
+import type { Headset, HeadsetMode } from '../xr/headset';
 
 const kReportEvery_ms = 1_000;
 const kHoverEvery_ms = 100;
@@ -65,6 +66,7 @@ export class KioskSession {
   private corner: InsetPlace | null = null;
   private muted = false;
   private ended = false;
+  private headset: Headset | null = null;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -106,6 +108,7 @@ export class KioskSession {
   }
   end(): void {
     this.ended = true;
+    this.headset?.leave();
     this.connection.end();
     this.pointer.end();
     this.sound.silence();
@@ -123,6 +126,23 @@ export class KioskSession {
   }
   settings(settings: { largeText?: boolean; highContrast?: boolean }): void {
     this.connection.send({ type: 'settings', ...settings });
+  }
+  /** From a visitor's touch. Rejects where no headset begins. */
+  async enterHeadset(mode: HeadsetMode): Promise<void> {
+    this.sound.unlock();
+    const { Headset } = await import('../xr/headset');
+    this.headset ??= await Headset.enter(mode, {
+      picture: this.picture,
+      frame: (now) => {
+        this.pass(now);
+        return this.frame;
+      },
+      overlay: () => this.state.overlay,
+      tracked: () => this.state.tracked,
+      press: (action) => this.press(action),
+      send: (bytes) => this.connection.sendBytes(bytes),
+      ended: () => (this.headset = null),
+    });
   }
   resize(width: number, height: number, corner: InsetPlace | null): void {
     this.picture.resize(width, height);
@@ -154,7 +174,7 @@ export class KioskSession {
   look(): object {
     const { state, online, malformed, frame, picture } = this;
     const complete = picture.world.complete;
-    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), ...picture.report() };
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), headset: this.headset?.look() ?? null, ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
   placeOf(object: number): { x: number; y: number } | null {
@@ -180,7 +200,7 @@ export class KioskSession {
   private goOn(online: boolean): void {
     this.online = online;
     if (!online) {
-      this.state = { ...this.state, pointer: null };
+      this.state = { ...this.state, pointer: null, tracked: null };
       this.keys.release();
     }
   }
@@ -220,18 +240,23 @@ export class KioskSession {
   private draw = (now: number): void => {
     if (this.ended) return;
     requestAnimationFrame(this.draw);
-    const before = this.frame;
-    this.frame = this.history.at(now - kDelay) ?? this.frame;
-    this.keys.pass((now - this.lastAt) / 1000);
-    this.lastAt = now;
+    if (this.headset) return;
+    this.pass(now);
     const phase = this.state.pointer?.phase;
     const dragging = this.pointer.isDown || this.keys.holds || phase === 'holding' || phase === 'reaching';
     this.picture.draw(this.frame, now, dragging, this.corner);
     this.findHover(now);
     this.drawAid();
+  };
+  /** Once a picture, of the page or of a headset. */
+  private pass(now: number): void {
+    const before = this.frame;
+    this.frame = this.history.at(now - kDelay) ?? this.frame;
+    this.keys.pass((now - this.lastAt) / 1000);
+    this.lastAt = now;
     this.hearSounds(before);
     this.tell(now);
-  };
+  }
 
   private findHover(now: number): void {
     const at = this.pointer.hover;

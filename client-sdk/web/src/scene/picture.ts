@@ -59,7 +59,7 @@ export class Picture {
   private size = { width: 1, height: 1 };
   private readonly mixer: EyeMixer | null;
   private readonly eyeCameras: Record<Eye, PerspectiveCamera>;
-  private readonly renderer: WebGLRenderer;
+  readonly renderer: WebGLRenderer;
   private readonly governor: QualityGovernor;
   private readonly insetCameras: Record<Eye, PerspectiveCamera> = {
     middle: new PerspectiveCamera(), left: new PerspectiveCamera(), right: new PerspectiveCamera(),
@@ -128,7 +128,7 @@ export class Picture {
     if (this.last > 0) this.intervals.push(interval);
     if (this.intervals.length > 120) this.intervals.shift();
     this.last = now;
-    if (this.lost) return;
+    if (this.lost || this.renderer.xr.isPresenting) return;
     if (frame) this.world.show(frame, this.camera);
     const aspect = this.width / this.height;
     const usual = this.world.camera;
@@ -143,6 +143,21 @@ export class Picture {
     this.draws.push(performance.now() - began);
     if (this.draws.length > 120) this.draws.shift();
     if (this.world.complete && this.governor.drawn(interval, now)) this.applyQuality();
+  }
+
+  /** In place of draw() while a headset shows the world. */
+  drawHeadset(frame: Frame | null, camera: PerspectiveCamera): void {
+    if (this.lost) return;
+    if (frame) this.world.show(frame, camera);
+    this.renderer.shadowMap.needsUpdate = true;
+    this.renderer.setClearAlpha(0);
+    this.renderer.clear();
+    this.renderer.render(this.world.scene, camera);
+    this.renderer.setClearAlpha(1);
+    // Where the visitor hears from.
+    camera.matrixWorld.decompose(this.camera.position, this.camera.quaternion, new Vector3());
+    this.camera.updateMatrixWorld(true);
+    ++this.pictures;
   }
 
   /** From pixels of a place to things. */
@@ -241,6 +256,7 @@ export class Picture {
 
   private applyQuality(): void {
     const { ratio, shadowSize } = this.governor.quality;
+    if (this.renderer.xr.isPresenting) return;
     const screen = window.devicePixelRatio || 1;
     // Rows of a screen are those of its own pixels, whatever the eyes' pictures have.
     this.renderer.setPixelRatio(this.mixer ? screen : Math.min(screen, ratio));

@@ -133,6 +133,10 @@ export interface PointerView {
   radius: number;
   link: 'none' | 'waiting' | 'joined' | 'refused';
 }
+/** This page's hands in a headset: right, left. */
+export interface TrackedState {
+  hands: { link: PointerView['link']; holding: boolean }[];
+}
 export interface WorldEvent {
   tick: number;
   kind: string;
@@ -151,6 +155,7 @@ export interface KioskState {
   presentation: Presentation | null;
   overlay: Overlay | null;
   pointer: PointerView | null;
+  tracked: TrackedState | null;
   /** What a technician has set for this page, 0..1; 0: mute. */
   volume: number;
   /** Why the gateway ended the connection, with what to do. */
@@ -167,6 +172,7 @@ export const kNothingKnown: KioskState = {
   presentation: null,
   overlay: null,
   pointer: null,
+  tracked: null,
   volume: 0.8,
   bye: null,
 };
@@ -331,6 +337,10 @@ function pointerOf(m: Fields): PointerView {
   };
 }
 
+function trackedOf(m: Fields): TrackedState {
+  return { hands: list(m.hands).map(fields).map((h) => ({ link: text(h.link) as PointerView['link'], holding: h.holding === true })) };
+}
+
 /** A message as an object with a type; null: it is not one. */
 export function parseMessage(json: string): (Fields & { type: string }) | null {
   try {
@@ -373,6 +383,8 @@ export function reduce(state: KioskState, m: Fields & { type: string }): KioskSt
       return { ...state, presentation: presentationOf(m) };
     case 'overlay':
       return { ...state, overlay: overlayOf(m) };
+    case 'tracked':
+      return { ...state, tracked: trackedOf(m) };
     case 'pointer':
       return { ...state, pointer: pointerOf(m) };
     case 'settings':
