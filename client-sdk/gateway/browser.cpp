@@ -37,7 +37,9 @@ Browser::Browser(std::shared_ptr<KioskHub> hub, std::string token)
       settings_(settings_of_browser()),
       panel_(visit::panel_settings(settings_)),
       writer_(settings_.language),
-      hand_([this] { return std::make_unique<pointer::PointerLink>(hub_->kiosk(), hub_->backstage().domain); }) {}
+      hand_([this] { return std::make_unique<pointer::PointerLink>(hub_->kiosk(), hub_->backstage().domain); }),
+      tracked_([this] { return std::make_unique<TrackedLink>(hub_->kiosk(), hub_->backstage().domain); },
+               [this](std::unique_ptr<TrackedLink> link) { hub_->backstage().end_slowly(std::move(link)); }) {}
 
 Browser::~Browser() {
   for (auto& hand : hand_.take_away())
@@ -69,6 +71,7 @@ void Browser::sit_down() {
 
 void Browser::closed() {
   hand_.release();
+  tracked_.release();
   hub_->leave(*this);
   socket_.reset();
 }
@@ -82,19 +85,26 @@ void Browser::part(const std::string& reason, const std::string& remedy) {
   if (socket_) socket_->close();
 }
 
+void Browser::refuse(const Error& error) {
+  log::warning("a message of " + hub_->kiosk() + "/" + display_ + " was refused: " + error.to_string());
+  part(error.where.empty() ? error.what : error.what + ": " + error.where,
+       "reload the page; if this comes again, gateway and page are of different versions");
+}
+
 void Browser::text(std::string_view message) {
   const auto parsed = parse_browser_message(message);
-  if (!parsed) {
-    log::warning("a message of " + hub_->kiosk() + "/" + display_ + " was refused: " + parsed.error().to_string());
-    return part(parsed.error().where.empty() ? parsed.error().what : parsed.error().what + ": " + parsed.error().where,
-                "reload the page; if this comes again, gateway and page are of different versions");
-  }
+  if (!parsed) return refuse(parsed.error());
   if (!std::holds_alternative<StatusMessage>(*parsed)) hub_->backstage().tokens.use(token_, time_now());
   std::visit([this](const auto& one) { take(one); }, *parsed);
 }
 
-void Browser::binary(std::span<const std::byte> /*message*/) {
-  part("this gateway takes no tracked hands", "point with a finger or the mouse");
+void Browser::binary(std::span<const std::byte> message) {
+  const auto hands = parse_tracked_message(message);
+  if (!hands) return refuse(hands.error());
+  const bool seen = std::ranges::any_of(*hands, &TrackedHand::tracked);
+  if (seen) panel_.notice_visitor(time_now());
+  if (seen) hub_->backstage().tokens.use(token_, time_now());
+  tracked_.take(*hands);
 }
 
 void Browser::take(const PointerMessage& message) {
@@ -185,6 +195,10 @@ void Browser::refresh(TimePoint now) {
 
 void Browser::follow(TimePoint now) {
   hand_.pass(to_seconds(now - std::exchange(followed_, now)));
+  if (std::string text = tracked_.text(); text != told_tracked_) {
+    told_tracked_ = text;
+    say("tracked", std::move(text));
+  }
   const std::vector<HandTold> hands = hand_.told();
   if (hands.empty()) return;
   std::string text = pointer_text(hands);

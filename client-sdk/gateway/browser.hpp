@@ -8,6 +8,7 @@
 #include "client-sdk/gateway/browser_hand.hpp"
 #include "client-sdk/gateway/browser_message.hpp"
 #include "client-sdk/gateway/http_types.hpp"
+#include "client-sdk/gateway/tracked_hands.hpp"
 #include "client-sdk/visit/decision_sender.hpp"
 #include "client-sdk/visit/overlay_text.hpp"
 #include "client-sdk/visit/subtitles.hpp"
@@ -51,6 +52,7 @@ class Browser final : public SocketUser, public std::enable_shared_from_this<Bro
   void take(const ClickMessage& message);
   void take(const SettingsMessage& message);
   void take(const StatusMessage& message);
+  void refuse(const Error& error);
   void sit_down();
   void answer_requests();
   [[nodiscard]] client::DisplaySettings shown_settings() const;
@@ -66,8 +68,9 @@ class Browser final : public SocketUser, public std::enable_shared_from_this<Bro
   visit::OverlayWriter writer_;
   visit::Subtitles subtitles_;
   BrowserHand hand_;
-  std::unique_ptr<client::DisplaySeat> seat_;  ///< null until the network has made it
-  std::string told_overlay_, told_pointer_;    ///< the last texts of these kinds
+  TrackedHands tracked_;
+  std::unique_ptr<client::DisplaySeat> seat_;               ///< null until the network has made it
+  std::string told_overlay_, told_pointer_, told_tracked_;  ///< the last texts of these kinds
   visit::DecisionSender decisions_;
   StatusMessage status_;
   TimePoint status_came_, opened_, followed_;

@@ -1,14 +1,10 @@
 #include "client-sdk/pointer/pointer_link.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 
-#include <pthread.h>
-
+#include "client-sdk/pointer/free_hand.hpp"
 #include "server/base/thread_setup.hpp"
-#include "server/log/log.hpp"
-#include "server/realtime/priority.hpp"
 
 namespace mechane::pointer {
 namespace {
@@ -17,25 +13,9 @@ using client::LinkState;
 
 // The server rejects samples older than 10 ms, and a thread without priority may wake late.
 constexpr Duration kSendEvery = std::chrono::milliseconds(2);
-constexpr int kFifoPriority = 60;  // lower than the devices' loops
-constexpr int kLookEvery = 4;      // sends; frames come at 60 Hz
+constexpr int kLookEvery = 4;  // sends; frames come at 60 Hz
 constexpr int kStatusEvery = 25;
 constexpr Duration kStays = std::chrono::seconds(30);
-constexpr std::array<std::uint32_t, 3> kUsers{3, 2, 1};
-
-/// Raises this thread's priority while it exists, so that drawing on the processor does not delay it: a hand that is
-/// silent for 50 ms lets go. Without permission nothing changes. Threads that the network library starts before or
-/// after stay ordinary.
-class Hurry {
- public:
-  Hurry() { (void)realtime::take_fifo(kFifoPriority); }
-  Hurry(const Hurry&) = delete;
-  Hurry& operator=(const Hurry&) = delete;
-  ~Hurry() {
-    const sched_param ordinary{0};
-    (void)pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
-  }
-};
 
 }  // namespace
 
@@ -134,29 +114,13 @@ void PointerLink::run() {
   }
 }
 
-/// The last hand without an owner.
 std::unique_ptr<client::Client> PointerLink::open() {
-  for (const std::uint32_t user : kUsers) {
-    client::ClientConfig config;
-    config.kiosk = kiosk_;
-    config.user = user;
-    config.role = client::Role::hand;
-    config.program = "mechane-display";
-    config.domain = domain_;
-    config.fifo_priority = kFifoPriority;
-    auto client = client::Client::connect(config);
-    if (!client) {
-      log::error(client.error());
-      break;
-    }
-    const auto look_again = std::chrono::milliseconds(20);
-    while ((*client)->state() != LinkState::refused) {
-      if ((*client)->wait_for(LinkState::joined, look_again)) return std::move(*client);
-      exchange_.take_acts();
-      show(PointerLinkState::waiting);
-      if (stop_ || exchange_.resting()) return std::move(*client);
-    }
-  }
+  auto client = take_last_hand(kiosk_, domain_, "mechane-display", [this] {
+    exchange_.take_acts();
+    show(PointerLinkState::waiting);
+    return !stop_ && !exchange_.resting();
+  });
+  if (client) return client;
   exchange_.take_acts();
   exchange_.hand() = PointerHand();
   show(PointerLinkState::refused);

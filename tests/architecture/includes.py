@@ -46,7 +46,7 @@ ARROWS = {
     "client-sdk/visitor": ["client-sdk/haptic", "client-sdk/pointer", "client-sdk/scene", "server/scenario"],  # a person at a device
     "client-sdk/fit": ["server/content"],
     "client-sdk/authoring": ["server/scenario"],
-    "client-sdk/gateway": ["client-sdk/visit", "client-sdk/pointer", "server/content", "server/visits"],
+    "client-sdk/gateway": ["client-sdk/visit", "client-sdk/pointer", "client-sdk/haptic", "server/content", "server/visits"],
     "client-sdk/cli": ["client-sdk/recording", "client-sdk/authoring", "server/content", "server/visits"],
     "client-sdk/examples": ["client-sdk/client"],
 }

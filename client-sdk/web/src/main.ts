@@ -17,9 +17,9 @@ async function start(): Promise<void> {
   const kiosk = kioskHere();
   if (kiosk) {
     rememberKiosk(kiosk);
-    const { default: Kiosk } = await import('./kiosk/Kiosk.svelte');
-    const token = new URLSearchParams(location.search).get('token') ?? '';
-    mount(Kiosk, { target, props: { kiosk, token } });
+    const [{ default: Kiosk }, { stereoOf }] = await Promise.all([import('./kiosk/Kiosk.svelte'), import('./scene/stereo')]);
+    const given = new URLSearchParams(location.search);
+    mount(Kiosk, { target, props: { kiosk, token: given.get('token') ?? '', stereo: stereoOf(given) } });
   } else {
     const { default: Console } = await import('./console/Console.svelte');
     mount(Console, { target });

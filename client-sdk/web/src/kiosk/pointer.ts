@@ -17,8 +17,12 @@ export interface PointerEventMessage {
 }
 /** What the pointer asks of the page. */
 export interface PointerPage {
-  under(x: number, y: number): UnderFinger;
-  view(): View;
+  /** In which of the page's places a pixel of the page lies; with two eyes' pictures there are two. */
+  placeAt(x: number, y: number): number;
+  /** From pixels of the page to those of a place. */
+  inPlace(place: number, x: number, y: number): { x: number; y: number };
+  under(x: number, y: number, place: number): UnderFinger;
+  view(place: number): View;
   size(): [number, number];
   send(message: object): void;
 }
@@ -41,8 +45,16 @@ const picked = (pick: Pick): { object: number; p: number[]; n: number[] } => ({
 export class PointerOut {
   private events: PointerEventMessage[] = [];
   private timer: ReturnType<typeof setTimeout> | undefined;
+  private place = 0;
 
   constructor(private readonly page: PointerPage) {}
+
+  /** Events from now on are in this place. */
+  goTo(place: number): void {
+    if (place === this.place) return;
+    this.flush();
+    this.place = place;
+  }
 
   say(event: PointerEventMessage): void {
     const last = this.events.at(-1);
@@ -55,7 +67,7 @@ export class PointerOut {
     clearTimeout(this.timer);
     this.timer = undefined;
     if (this.events.length === 0) return;
-    const { pose, fov, aspect, offset } = this.page.view();
+    const { pose, fov, aspect, offset } = this.page.view(this.place);
     this.page.send({ type: 'pointer', events: this.events, picture: this.page.size(), camera: { pose, fov, aspect, offset } });
     this.events = [];
   }
@@ -67,6 +79,8 @@ export class PointerIn {
   hover: { x: number; y: number } | null = null;
   private fingers = new Map<number, { number: number; x: number; y: number; object: number | null }>();
   private lastFinger = kMouse;
+  /** A finger stays in the place where it came down. */
+  private in = 0;
   private readonly out: PointerOut;
 
   constructor(
@@ -95,7 +109,8 @@ export class PointerIn {
 
   /** From the keyboard: a press at a place of the picture. */
   press(x: number, y: number): boolean {
-    const { takeable } = this.page.under(x, y);
+    this.goTo(0);
+    const { takeable } = this.page.under(x, y, this.in);
     if (!takeable) return false;
     this.say('press', x, y, kMouse, 0, takeable);
     return true;
@@ -104,13 +119,23 @@ export class PointerIn {
     this.out.say({ kind, x, y, amount, finger, ...(pick && { pick: picked(pick) }) });
   }
 
-  private place(event: MouseEvent): { x: number; y: number } {
+  /** Where the mouse rests, and fingers are: an index of the page's places. */
+  get place(): number {
+    return this.in;
+  }
+  private goTo(place: number): void {
+    this.in = place;
+    this.out.goTo(place);
+  }
+  private at(event: MouseEvent): { x: number; y: number } {
     const box = this.element.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top };
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    if (this.fingers.size === 0) this.goTo(this.page.placeAt(x, y));
+    return this.page.inPlace(this.in, x, y);
   }
   private down = (event: PointerEvent): void => {
     this.touched();
-    const { x, y } = this.place(event);
+    const { x, y } = this.at(event);
     const mouse = event.pointerType === 'mouse';
     if (mouse && event.button === 2) return this.say('turn_press', x, y);
     if (mouse && event.button !== 0) return;
@@ -118,19 +143,19 @@ export class PointerIn {
     this.element.setPointerCapture(event.pointerId);
     const number = mouse ? kMouse : ++this.lastFinger;
     if (!mouse) this.hover = null;
-    const { seen, takeable } = this.page.under(x, y);
+    const { seen, takeable } = this.page.under(x, y, this.in);
     this.fingers.set(event.pointerId, { number, x, y, object: takeable ? null : (seen?.object ?? null) });
     this.say('press', x, y, number, 0, takeable);
     this.out.flush();
   };
   private move = (event: PointerEvent): void => {
-    const { x, y } = this.place(event);
+    const { x, y } = this.at(event);
     if (event.pointerType === 'mouse') this.hover = { x, y };
     const finger = this.fingers.get(event.pointerId);
     if (finger) this.say('move', x, y, finger.number);
   };
   private up = (event: PointerEvent): void => {
-    const { x, y } = this.place(event);
+    const { x, y } = this.at(event);
     if (event.pointerType === 'mouse' && event.button === 2) return this.say('turn_release', x, y);
     const finger = this.fingers.get(event.pointerId);
     if (!finger) return;
@@ -147,7 +172,7 @@ export class PointerIn {
   };
   private wheel = (event: WheelEvent): void => {
     event.preventDefault();
-    const { x, y } = this.place(event);
+    const { x, y } = this.at(event);
     const rolled = event.shiftKey && event.deltaY === 0 ? event.deltaX : event.deltaY;
     const scale = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? kWheelNotch_px : 3;
     this.say(event.shiftKey ? 'turn_wheel' : 'wheel', x, y, kMouse, -rolled / scale);

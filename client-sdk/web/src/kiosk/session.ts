@@ -2,6 +2,7 @@
 import { Box3, Vector3 } from 'three';
 import { underFinger, placeToTake, type UnderFinger } from '../scene/picking';
 import { Picture, type InsetPlace } from '../scene/picture';
+import { inPlace, type StereoSetup } from '../scene/stereo';
 import { SoundPlayer } from '../sound/player';
 import { soundSources } from '../sound/sources';
 import { Connection } from '../wire/connection';
@@ -11,6 +12,7 @@ import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type Wor
 import { drawAid } from './aid';
 import { KeyHand } from './keys';
 import { PointerIn } from './pointer';
+import type { Headset, HeadsetMode } from '../xr/headset';
 
 const kReportEvery_ms = 1_000;
 const kHoverEvery_ms = 100;
@@ -67,6 +69,7 @@ export class KioskSession {
   private corner: InsetPlace | null = null;
   private muted = false;
   private ended = false;
+  private headset: Headset | null = null;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -74,12 +77,18 @@ export class KioskSession {
     surface: HTMLElement,
     kiosk: string,
     private readonly token: string,
+    stereo: StereoSetup,
     private readonly changed: (shown: Shown) => void,
   ) {
-    this.picture = new Picture(canvas, (hash) => this.address(`/content/${hash}`));
+    this.picture = new Picture(canvas, (hash) => this.address(`/content/${hash}`), stereo);
     const page = {
-      under: (x: number, y: number): UnderFinger => underFinger(this.picture.pickScene(), x, y),
-      view: () => this.picture.view(),
+      placeAt: (x: number, y: number): number => {
+        const at = this.picture.places.findIndex(({ left, top, width, height }) => x < left + width && y < top + height);
+        return at < 0 ? this.picture.places.length - 1 : at;
+      },
+      inPlace: (place: number, x: number, y: number) => inPlace(this.picture.places[place] ?? this.picture.places[0]!, x, y),
+      under: (x: number, y: number, place: number): UnderFinger => underFinger(this.picture.pickScene(place), x, y),
+      view: (place: number) => this.picture.view(place),
       size: (): [number, number] => [this.picture.width, this.picture.height],
       send: (message: object) => this.connection.send(message),
     };
@@ -102,6 +111,7 @@ export class KioskSession {
   }
   end(): void {
     this.ended = true;
+    this.headset?.leave();
     this.connection.end();
     this.pointer.end();
     this.sound.silence();
@@ -119,6 +129,23 @@ export class KioskSession {
   }
   settings(settings: { largeText?: boolean; highContrast?: boolean }): void {
     this.connection.send({ type: 'settings', ...settings });
+  }
+  /** From a visitor's touch. Rejects where no headset begins. */
+  async enterHeadset(mode: HeadsetMode): Promise<void> {
+    this.sound.unlock();
+    const { Headset } = await import('../xr/headset');
+    this.headset ??= await Headset.enter(mode, {
+      picture: this.picture,
+      frame: (now) => {
+        this.pass(now);
+        return this.frame;
+      },
+      overlay: () => this.state.overlay,
+      tracked: () => this.state.tracked,
+      press: (action) => this.press(action),
+      send: (bytes) => this.connection.sendBytes(bytes),
+      ended: () => (this.headset = null),
+    });
   }
   resize(width: number, height: number, corner: InsetPlace | null): void {
     this.picture.resize(width, height);
@@ -150,7 +177,7 @@ export class KioskSession {
   look(): object {
     const { state, online, malformed, frame, picture } = this;
     const complete = picture.world.complete;
-    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), ...picture.report() };
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), headset: this.headset?.look() ?? null, ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
   placeOf(object: number): { x: number; y: number } | null {
@@ -177,7 +204,7 @@ export class KioskSession {
     this.online = online;
     if (!online) {
       this.missed = true;
-      this.state = { ...this.state, pointer: null };
+      this.state = { ...this.state, pointer: null, tracked: null };
       this.keys.release();
     }
   }
@@ -217,18 +244,23 @@ export class KioskSession {
   private draw = (now: number): void => {
     if (this.ended) return;
     requestAnimationFrame(this.draw);
-    const before = this.frame;
-    this.frame = this.history.at(now - kDelay) ?? this.frame;
-    this.keys.pass((now - this.lastAt) / 1000);
-    this.lastAt = now;
+    if (this.headset) return;
+    this.pass(now);
     const hands = this.state.pointer ? [this.state.pointer, ...this.state.pointer.others] : [];
     const dragging = this.pointer.isDown || this.keys.holds || hands.some((h) => h.phase === 'holding' || h.phase === 'reaching');
     this.picture.draw(this.frame, now, dragging, this.corner);
     this.findHover(now);
     this.drawAid();
+  };
+  /** Once a picture, of the page or of a headset. */
+  private pass(now: number): void {
+    const before = this.frame;
+    this.frame = this.history.at(now - kDelay) ?? this.frame;
+    this.keys.pass((now - this.lastAt) / 1000);
+    this.lastAt = now;
     this.hearSounds(before);
     this.tell(now);
-  };
+  }
 
   private findHover(now: number): void {
     const at = this.pointer.hover;
@@ -239,23 +271,27 @@ export class KioskSession {
     }
     if (now - this.hoverAt < kHoverEvery_ms) return;
     this.hoverAt = now;
-    const { seen, takeable } = underFinger(this.picture.pickScene(), at.x, at.y);
+    const { seen, takeable } = underFinger(this.picture.pickScene(this.pointer.place), at.x, at.y);
     this.hover = takeable?.p ?? null;
     this.hoverObject = (takeable ?? seen)?.object ?? null;
   }
   private drawAid(): void {
     const context = this.aid.getContext('2d');
     if (!context) return;
-    context.clearRect(0, 0, this.picture.width, this.picture.height);
+    const { width, height, places } = this.picture;
+    context.clearRect(0, 0, this.aid.width, this.aid.height);
     if (!this.state.mayPoint || this.state.overlay?.panel) return;
     const focus = this.focus && !this.keys.holds ? this.focus.place : null;
-    drawAid(context, {
-      pointer: this.state.pointer,
-      hover: this.hover,
-      focus,
-      finger: this.pointer.hover,
-      pixelOf: (p) => this.picture.pixelOf(p),
-      height: this.picture.height,
+    places.forEach((place, k) => {
+      context.save();
+      context.beginPath();
+      context.rect(place.left, place.top, place.width, place.height);
+      context.clip();
+      context.translate(place.left, place.top);
+      context.scale(place.width / width, place.height / height);
+      const pixel = (p: Vector3): { x: number; y: number } | null => this.picture.pixelOf(p, k);
+      drawAid(context, { pointer: this.state.pointer, hover: this.hover, focus, finger: this.pointer.hover, pixelOf: pixel, height });
+      context.restore();
     });
   }
   private hearSounds(before: Frame | null): void {

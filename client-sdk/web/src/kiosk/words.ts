@@ -1,6 +1,6 @@
 // The page's own words. All others come from the gateway, in the visitor's language.
 
-interface Words {
+export interface Words {
   waiting: string;
   lost: string;
   offline: string;
@@ -20,6 +20,11 @@ interface Words {
   pressAndHold: string;
   spaceTakes: string;
   busy: string;
+  enterHeadset: string;
+  enterRoom: string;
+  recenter: string;
+  leaveHeadset: string;
+  noHeadset: string;
 }
 
 const kEnglish: Words = {
@@ -42,6 +47,11 @@ const kEnglish: Words = {
   pressAndHold: 'Press and hold to take it',
   spaceTakes: 'Space takes it; Tab goes to the next',
   busy: 'All hands are busy at the moment',
+  enterHeadset: 'Enter headset',
+  enterRoom: 'Headset, in this room',
+  recenter: 'To the machine',
+  leaveHeadset: 'Leave',
+  noHeadset: 'The headset did not begin. Put it on, and try again.',
 };
 const kGreek: Words = {
   waiting: 'Το έκθεμα ετοιμάζεται …',
@@ -63,6 +73,11 @@ const kGreek: Words = {
   pressAndHold: 'Πατήστε και κρατήστε για να το πιάσετε',
   spaceTakes: 'Με το πλήκτρο διαστήματος το πιάνετε, με το Tab πάτε στο επόμενο',
   busy: 'Όλα τα χέρια είναι απασχολημένα',
+  enterHeadset: 'Με κράνος VR',
+  enterRoom: 'Με κράνος, στον χώρο σας',
+  recenter: 'Προς τη μηχανή',
+  leaveHeadset: 'Έξοδος',
+  noHeadset: 'Το κράνος δεν ξεκίνησε. Φορέστε το και δοκιμάστε πάλι.',
 };
 
 export const wordsIn = (language: string): Words => (language === 'el' ? kGreek : kEnglish);

@@ -14,8 +14,8 @@ export interface Camera {
   roomBelow: number;
 }
 
-const kNear = 0.05;
-const kFar = 400;
+export const kNear = 0.05;
+export const kFar = 400;
 
 export const vector = (p: readonly number[]): Vector3 => new Vector3(p[0], p[1], p[2]);
 export const quaternion = (x: PoseArray): Quaternion => new Quaternion(x[3], x[4], x[5], x[6]).normalize();

@@ -85,6 +85,7 @@ export class WorldScene {
   private readonly particles = new Particles();
   private readonly fires = [0, 1].map(() => new PointLight(0xff7021, 0, 6, 2));
   private readonly things = new Group();
+  private readonly sky: Mesh;
   private readonly plain: Mesh;
   private readonly plainHeight = { value: 0 };
   private readonly waterTime = { value: 0 };
@@ -93,22 +94,36 @@ export class WorldScene {
   private grownAbout = '';
   private placed: Placed[] = [];
   private box = new Box3();
-  private interest = new Box3();
+  /** What visitors touch and look at. */
+  interest = new Box3();
   private ground: number | null = null;
   private waterHeight: number | null = null;
+  private backdrop = true;
   private state: KioskState | null = null;
 
   constructor(private readonly models: ModelStore) {
-    const sky = new Mesh(new SphereGeometry(300, 48, 32), skyMaterial(true));
-    sky.frustumCulled = false;
-    sky.renderOrder = -1;
+    this.sky = new Mesh(new SphereGeometry(300, 48, 32), skyMaterial(true));
+    this.sky.frustumCulled = false;
+    this.sky.renderOrder = -1;
     this.plain = new Mesh(new CircleGeometry(kPlain_m, 96).rotateX(-Math.PI / 2), landMaterial(null, null, this.plainHeight));
     this.plain.receiveShadow = true;
     this.plain.visible = false;
     this.sun.castShadow = true;
     this.scene.fog = new Fog(kHaze, 1, 1000);
-    this.scene.add(sky, this.plain, this.sun, this.sun.target, this.things, ...this.fires);
+    this.scene.add(this.sky, this.plain, this.sun, this.sun.target, this.things, ...this.fires);
     this.scene.add(this.hands.group, this.ropes.group, this.streams.group, this.particles.mesh);
+  }
+
+  /** Sky, plain and trees; without them a visitor sees the room behind the things. */
+  showBackdrop(shown: boolean): void {
+    this.backdrop = shown;
+    this.sky.visible = shown;
+    this.plain.visible = shown && this.ground !== null;
+    if (this.landscape) this.landscape.visible = shown;
+  }
+  /** Height of what visitors stand on. */
+  get floor(): number {
+    return this.ground ?? 0;
   }
 
   /** Takes what is known of the world, and which mesh files are there. */
@@ -179,7 +194,7 @@ export class WorldScene {
     if (!scenery && presentation && presentation.activities.length === 0) this.ground = null;
     if (this.bringsLandscape()) this.ground = this.box.min.y;
     this.camera = this.standpoint(presentation);
-    this.plain.visible = this.ground !== null;
+    this.plain.visible = this.backdrop && this.ground !== null;
     this.plainHeight.value = this.ground ?? 0;
     this.plain.position.y = this.ground ?? 0;
     this.placeSun();
@@ -276,6 +291,7 @@ export class WorldScene {
     if (about === '' || clearing >= kMostClearing_m || this.bringsLandscape()) return;
     const middle = scenery.getCenter(new Vector3()).setY(this.ground!);
     this.landscape = growLandscape({ middle, clearing, seed: Math.trunc(100 * size.length()), waters });
+    this.landscape.visible = this.backdrop;
     this.scene.add(this.landscape);
   }
 
@@ -308,7 +324,7 @@ export class WorldScene {
       appendDrops(stream, time, all);
       appendSplash(stream, i, time, all);
     });
-    this.particles.show(all, eye.position);
+    this.particles.show(all, eye.getWorldPosition(new Vector3()));
     this.light(particles.filter((p) => p.kind === 'fire'), time);
   }
 

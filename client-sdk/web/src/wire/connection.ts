@@ -41,6 +41,9 @@ export class Connection {
   send(message: object): void {
     if (this.isOpen) this.socket?.send(JSON.stringify(message));
   }
+  sendBytes(bytes: ArrayBuffer): void {
+    if (this.isOpen) this.socket?.send(bytes);
+  }
   /** Tries at once: the network or the page has come back. */
   hurry(): void {
     if (this.ended || this.socket) return;

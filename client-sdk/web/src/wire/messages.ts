@@ -137,6 +137,10 @@ export interface PointerView {
   /** Further hands of this page, which work at the same time. */
   others: PointerView[];
 }
+/** This page's hands in a headset: right, left. */
+export interface TrackedState {
+  hands: { link: PointerView['link']; holding: boolean }[];
+}
 export interface WorldEvent {
   tick: number;
   kind: string;
@@ -155,6 +159,7 @@ export interface KioskState {
   presentation: Presentation | null;
   overlay: Overlay | null;
   pointer: PointerView | null;
+  tracked: TrackedState | null;
   /** What a technician has set for this page, 0..1; 0: mute. */
   volume: number;
   /** Why the gateway ended the connection, with what to do. */
@@ -171,6 +176,7 @@ export const kNothingKnown: KioskState = {
   presentation: null,
   overlay: null,
   pointer: null,
+  tracked: null,
   volume: 0.8,
   bye: null,
 };
@@ -337,6 +343,10 @@ function pointerOf(m: Fields): PointerView {
   };
 }
 
+function trackedOf(m: Fields): TrackedState {
+  return { hands: list(m.hands).map(fields).map((h) => ({ link: text(h.link) as PointerView['link'], holding: h.holding === true })) };
+}
+
 /** A message as an object with a type; null: it is not one. */
 export function parseMessage(json: string): (Fields & { type: string }) | null {
   try {
@@ -379,6 +389,8 @@ export function reduce(state: KioskState, m: Fields & { type: string }): KioskSt
       return { ...state, presentation: presentationOf(m) };
     case 'overlay':
       return { ...state, overlay: overlayOf(m) };
+    case 'tracked':
+      return { ...state, tracked: trackedOf(m) };
     case 'pointer':
       return { ...state, pointer: pointerOf(m) };
     case 'settings':

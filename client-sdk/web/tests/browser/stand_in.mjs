@@ -68,6 +68,8 @@ function worldOf(model, things, takeable) {
 
 export class StandIn {
   heard = [];
+  /** Messages of tracked hands. */
+  hands = [];
   sockets = new Set();
 
   constructor(app, model, takeable) {
@@ -99,7 +101,7 @@ export class StandIn {
     for (const message of this.messages) socket.send(JSON.stringify(message));
     let sequence = 0;
     const pace = setInterval(() => socket.send(frameBytes(this.things, ++sequence)), 33);
-    socket.on('message', (message) => this.heard.push(JSON.parse(String(message))));
+    socket.on('message', (message, binary) => (binary ? this.hands.push(message) : this.heard.push(JSON.parse(String(message)))));
     socket.on('close', () => {
       clearInterval(pace);
       this.sockets.delete(socket);
