@@ -9,7 +9,8 @@ export async function wearHeadset(page) {
   await page.addInitScript({ path: kIwer });
   await page.addInitScript(() => {
     const device = new window.IWER.XRDevice(window.IWER.metaQuest3);
-    device.installRuntime();
+    // Chromium has a WebXR of its own, without any headset.
+    device.installRuntime({ forceInstall: true });
     device.position.set(0, 1.6, 0);
     device.stereoEnabled = true;
     window.headset = device;
