@@ -46,10 +46,11 @@ class WebVisitor(TouchVisitor):
 class Gateway(EndToEnd):
     maxDiff = 4000
     def gateway(self, *arguments):
-        """A gateway at a port of its own, with an app of two files, and a page of it."""
+        """A gateway at a port of its own, with an app of three files, and a page of it."""
         (self.folder / "app/assets").mkdir(parents=True, exist_ok=True)
         (self.folder / "app/index.html").write_text("<!doctype html><title>Mechane</title>")
         (self.folder / "app/assets/main-1.js").write_text("'use strict'")
+        (self.folder / "app/sw.js").write_text("'use strict'")
         self.state = self.folder / "state"
         listen = [] if "--listen" in arguments else ["--listen", "127.0.0.1:0"]
         process = self.start("gateway", "gateway", *listen, "--state", self.state, "--app", self.folder / "app", *arguments)
@@ -99,6 +100,10 @@ class Gateway(EndToEnd):
         self.assertEqual(page.get(address, **{"If-None-Match": headers["etag"]})[0], 304)
         status, headers, body = page.get(address, Range="bytes=4-11")
         self.assertEqual((status, body, headers["content-range"]), (206, mesh[4:12], f"bytes 4-11/{len(mesh)}"))
+
+        # The app's service worker may serve all pages, and no other file may.
+        allowed = {path: page.get(path)[1].get("service-worker-allowed") for path in ("/app/sw.js", "/app/assets/main-1.js")}
+        self.assertEqual(allowed, {"/app/sw.js": "/", "/app/assets/main-1.js": None})
 
         # The crank.
         browser.say(type="press", action="activity:use")
