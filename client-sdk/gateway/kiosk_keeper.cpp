@@ -60,8 +60,10 @@ void KioskKeeper::lead_home(GatewaySite& site, const std::string& kiosk, const K
   if (std::exchange(kept.sign, wish.sign) == wish.sign) return;
   site.note_own("sign", kiosk + ": " + wish.sign);
   if (wish.sign == "none") return;
-  const bool shown = std::ranges::count(site.watch().displays(), kiosk, &client::DisplayStatus::kiosk) >
-                     0;  // nobody visits a dark kiosk
+  // Nobody visits a dark kiosk. A browser that has just come is not among the displays yet.
+  const auto hub = site.hubs().find(kiosk);
+  const bool shown = (hub != site.hubs().end() && hub->second->browsers() > 0) ||
+                     std::ranges::count(site.watch().displays(), kiosk, &client::DisplayStatus::kiosk) > 0;
   if (shown) open_at_kiosk(site, kiosk, "", told_if_refused(kiosk + " did not go home"));
 }
 
