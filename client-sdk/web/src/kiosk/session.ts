@@ -147,7 +147,8 @@ export class KioskSession {
   look(): object {
     const { state, online, malformed, frame, picture } = this;
     const complete = picture.world.complete;
-    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), ...picture.report() };
+    const view = picture.view();
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, view, things: this.things(), ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
   placeOf(object: number): { x: number; y: number } | null {
