@@ -93,10 +93,10 @@ def measure_load(context) -> Measured:
     """Each time a new browser; the median of some loads, because a slow minute of the machine falls on one."""
     script, loads = context.root / "client-sdk/web/tests/browser/load.mjs", []
     with running(context, context.root / "scenarios/village/village.x3d", "load") as gateway:
-        for k in range(LOADS):
+        for _ in range(LOADS):
             try:
-                done = subprocess.run(["node", str(script), gateway.address, *([str(context.out / "gateway-village.png")] if k == 0 else [])],
-                                      capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
+                done = subprocess.run(["node", str(script), gateway.address, str(context.out / "gateway-village.png")], capture_output=True,
+                                      text=True, timeout=360, stdin=subprocess.DEVNULL)
             except (FileNotFoundError, subprocess.TimeoutExpired) as reason:
                 raise Missing(f"the page could not be loaded: {reason}") from None
             if done.returncode:
@@ -119,8 +119,8 @@ def clients(port: int, path: str, pid: int, count: int, seconds: float, stalled:
 
 @contextlib.contextmanager
 def peer(frame_bytes: int, per_second: float):
-    process = subprocess.Popen([sys.executable, "-B", str(HERE / "stream_peer.py"), "--bytes", str(frame_bytes), "--per-second", str(per_second)],
-                               stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+    process = subprocess.Popen([sys.executable, "-B", str(HERE / "stream_peer.py"), "--bytes", str(frame_bytes), "--per-second",
+                                str(per_second)], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
     try:
         yield process.pid, int(process.stdout.readline())
     finally:

@@ -88,10 +88,8 @@ class Client:
 
 
 def processor_s(pid: int) -> float:
-    """Processor time of a process's threads so far."""
-    with open(f"/proc/{pid}/stat") as file:
-        words = file.read().rpartition(")")[2].split()
-    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+    """Processor time of a process's threads so far, to the nanosecond: /proc counts whole ticks of the clock."""
+    return time.clock_gettime((~pid << 3) | 2)  # as clock_getcpuclockid() has it on Linux
 
 
 def read_for(selector: selectors.BaseSelector, until) -> None:

@@ -2,7 +2,7 @@
 import { gzipSync } from 'node:zlib';
 import { openBrowser } from './page.mjs';
 
-const kLimit_ms = 120_000;
+const kLimit_ms = 280_000;
 const [address, picture] = process.argv.slice(2);
 const { browser, page, errors } = await openBrowser({ viewport: { width: 480, height: 360 } });
 try {
