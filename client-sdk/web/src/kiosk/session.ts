@@ -147,8 +147,7 @@ export class KioskSession {
   look(): object {
     const { state, online, malformed, frame, picture } = this;
     const complete = picture.world.complete;
-    const view = picture.view();
-    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, view, things: this.things(), ...picture.report() };
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
   placeOf(object: number): { x: number; y: number } | null {
