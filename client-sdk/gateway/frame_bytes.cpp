@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 
 #include "server/base/byte_order.hpp"
 
@@ -10,6 +11,12 @@ namespace {
 
 constexpr std::uint8_t kFrameKind = 1;
 constexpr std::uint8_t kFrameVersion = 1;
+
+/// Of this machine's clock that never goes back.
+std::uint16_t sent_at(TimePoint now) {
+  using Tenths = std::chrono::duration<std::int64_t, std::ratio<1, 10'000>>;  // of a millisecond
+  return static_cast<std::uint16_t>(std::chrono::duration_cast<Tenths>(now.time_since_epoch()).count());
+}
 
 template <class Sink>
 void put_float(Sink& sink, double value) {
@@ -71,7 +78,7 @@ std::array<std::byte, kFrameHeader> frame_header(const FrameBody& frame, std::ui
   SpanSink sink(bytes);
   put(sink, kFrameKind);
   put(sink, kFrameVersion);
-  put(sink, std::uint16_t{0});
+  put(sink, sent_at(now));
   put(sink, skipped);
   put(sink, frame.sequence);
   put(sink, frame.tick);

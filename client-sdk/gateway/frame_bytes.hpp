@@ -21,7 +21,7 @@ struct FrameBody {
 };
 
 [[nodiscard]] FrameBody encode_frame(const client::Frame& frame);
-/// The first 32 bytes, made when the frame is sent: what was skipped and how old it is differ between browsers.
+/// The first 32 bytes, made when the frame is sent: what was skipped, when it is sent and how old it is differ between browsers.
 [[nodiscard]] std::array<std::byte, kFrameHeader> frame_header(const FrameBody& frame, std::uint32_t skipped,
                                                                TimePoint now);
 

@@ -539,14 +539,27 @@ class WebServerImpl final : public WebServer {
   /// Over TLS, telling why would take a handshake: the connection is closed.
   void refuse(tcp::socket socket, const std::string& address) {
     ++hall_->traffic.refused;
-    log::warning("connections from " + address + " are refused: there are as many as may be");
-    if (tls_ || hall_->refusals >= kMostRefusals) return;
+    if (refusal_warnings_.take(now()))
+      log::warning("connections from " + address + " are refused: there are as many as may be");
+    if (tls_) return;
+    if (hall_->refusals >= kMostRefusals) return tell_and_close(std::move(socket));
     std::make_shared<Lingerer>(PlainStream(std::move(socket)), hall_)->say(busy_text());
+  }
+
+  /// Without waiting until it is read. What has come already is taken: the system would cut off the answer for it.
+  static void tell_and_close(tcp::socket socket) {
+    error_code ignored;
+    std::array<char, 1024> asked{};
+    socket.non_blocking(true, ignored);
+    socket.read_some(asio::buffer(asked), ignored);
+    socket.write_some(asio::buffer(busy_text()), ignored);
+    socket.shutdown(tcp::socket::shutdown_send, ignored);
   }
 
   std::shared_ptr<Hall> hall_;
   asio::io_context loop_{1};
   std::optional<asio::ssl::context> tls_;
+  RateLimit refusal_warnings_{1, 5};  // a flood of connections is not to fill the disk
   tcp::acceptor acceptor_;
   asio::steady_timer again_;
   asio::signal_set signals_;

@@ -14,6 +14,7 @@ import aims
 import collision
 import display
 import fields
+import gateway
 import haptics
 import machine
 import path
@@ -22,7 +23,8 @@ from peers import Measured
 from plots import number
 
 ROOT = Path(__file__).resolve().parents[2]
-BENCHMARKS = {"path": path, "collision": collision, "fields": fields, "haptics": haptics, "worlds": worlds, "display": display}
+BENCHMARKS = {"path": path, "collision": collision, "fields": fields, "haptics": haptics, "worlds": worlds, "display": display,
+              "gateway": gateway}
 
 
 @dataclass

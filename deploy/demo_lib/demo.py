@@ -28,6 +28,7 @@ VISIT_LIMIT_S = 240
 TOUR_LIMIT_S = 1200
 DRAW_LIMIT_S = 900
 TOUR_TOLD_EACH_S = 15  # where there is no terminal
+GATEWAY_LIMIT_S = 60
 
 
 def read_json(path):
@@ -96,6 +97,21 @@ def start_server(programs, options, scenarios, out):
     programs.wait_ready(tell)
     if sys.stdout.isatty():
         print()
+
+
+def start_gateway(programs, options, out):
+    """Starts the gateway and prints the addresses for browsers, as it tells them; None, or why there is none."""
+    shutil.rmtree(out / "gateway", ignore_errors=True)  # a new one tells the operator's password
+    log, started = out / "gateway.log", time.monotonic()
+    programs.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--kiosk", *KIOSKS, "--state", out / "gateway", "--records", out / "records",
+                   "--domain", options.domain)
+    while "\nready" not in log.read_text(errors="replace"):
+        if programs.wait("gateway", 0.1) is not None or time.monotonic() - started > GATEWAY_LIMIT_S:
+            return f"the gateway did not start: see {log}"
+    print("  for browsers on this machine, while the demo runs:")
+    for line in re.findall(r"^(?:kiosk \S+|console|operator's password).*", log.read_text(errors="replace"), re.MULTILINE):
+        print(f"    {line}", flush=True)
+    return None
 
 
 def start_clients(programs, options, out):
@@ -284,6 +300,8 @@ def main():
         print("demo: a server, three kiosks with a visitor and a display each, a second hand at the first kiosk")
         scenarios = scenarios_of(options)
         start_server(programs, options, scenarios, out)
+        if failure := start_gateway(programs, options, out):
+            problems.append(failure)
         visitors = start_clients(programs, options, out)
         if not watch_visitors(programs, visitors):
             problems.append(f"the visitors were not done after {VISIT_LIMIT_S} s")
@@ -295,6 +313,8 @@ def main():
         tables = {device: tour(programs, options, out, device) for device in DEVICES} if options.all else {}
         problems += [f"not every visit by {DEVICES[device][1]} was completed: see {out / f'tour-{device}.log'}"
                      for device, table in tables.items() if table is None]
+        if programs.stop("gateway", 20) != 0:
+            problems.append(f"the gateway ended badly: see {out / 'gateway.log'}")
         if programs.stop("server", 20) != 0:
             problems.append(f"the server ended badly: see {out / 'server.log'}")
         replays = replay_journals(programs, scenarios, out / "records", 1 if options.all else 2)

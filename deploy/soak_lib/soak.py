@@ -18,6 +18,7 @@ EXHIBITS = (SCREW, ODOMETER)
 SAMPLE_EVERY_S = 2
 VISIT_LIMIT_S = 300
 STOP_LIMIT_S = 30
+GATEWAY_LIMIT_S = 60
 
 
 def memory_mib(pid: int) -> float | None:
@@ -69,6 +70,19 @@ class Soak(Programs):
     def display(self, name: str, kiosk: str) -> None:
         self.start(name, "display", "--offscreen", "--kiosk", kiosk, "--name", name, "--size", "320x180", "--fps", "5")
 
+    def gateway(self, kiosk: str) -> None:
+        """A gateway, and its readers: see readers.py."""
+        self.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--kiosk", kiosk, "--state", self.out / "gateway")
+        log, end = self.out / "gateway.log", time.monotonic() + GATEWAY_LIMIT_S
+        while "\nready" not in log.read_text(errors="replace"):
+            if self.wait("gateway", 0.1) is not None or time.monotonic() > end:
+                sys.exit(f"soak: the gateway did not start: see {log}")
+        port, token = re.search(r"^kiosk \S+: http://[^:]+:(\d+)/\S+\?token=(\S+)", log.read_text(), re.MULTILINE).groups()
+        with open(self.out / "readers.log", "w") as said:
+            self.running["readers"] = subprocess.Popen(
+                [sys.executable, "-B", str(Path(__file__).with_name("readers.py")), "--port", port, "--path", f"/ws/kiosk/{kiosk}?token={token}"],
+                stdout=said, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+
     def kiosk(self, name: str, kiosk: str, guest: bool):
         """One kiosk's day, in steps: a visit after the other, with a display that comes and goes where it is a guest's."""
         count = 0
@@ -102,19 +116,20 @@ class Soak(Programs):
         self.wait_ready()
         self.began = time.monotonic()
         self.display("wall", "kiosk-1")
+        self.gateway("kiosk-1")
         days = [self.kiosk("one", "kiosk-1", False), self.kiosk("two", "kiosk-2", True)]
-        lasting = ("server", "wall")
+        lasting, measured = ("server", "wall", "gateway", "readers"), ("server", "wall", "gateway")
         shown = self.began
         while time.monotonic() < self.end:
             for day in days:
                 next(day)
-            self.sample(lasting)
+            self.sample(measured)
             for name in lasting:
                 if self.running[name].poll() is not None:
                     return self.fault(f"{name} ended by itself with status {self.running[name].returncode}")
             if time.monotonic() - shown >= 60:
                 shown = time.monotonic()
-                held = ", ".join(f"{name} {self.samples[name][-1][1]:.1f} MiB" for name in lasting if name in self.samples)
+                held = ", ".join(f"{name} {self.samples[name][-1][1]:.1f} MiB" for name in measured if name in self.samples)
                 print(f"  {(shown - self.began) / 60:5.1f} min  {held}; {self.visits['done']} visits", flush=True)
             time.sleep(0.1)
 

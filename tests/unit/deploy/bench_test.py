@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "deploy/bench_lib")
 import against  # noqa: E402
 import aims  # noqa: E402
 import bench  # noqa: E402
+import gateway  # noqa: E402
 import plots  # noqa: E402
 import worlds  # noqa: E402
 from peers import Measured  # noqa: E402
@@ -85,6 +86,24 @@ class Against(unittest.TestCase):
     def test_a_revision_that_is_not_there_is_said(self):
         with self.assertRaisesRegex(against.NoRevision, "single revision|unknown revision"):
             against.checkout(bench.ROOT, "no-such-revision")
+
+
+class Gateway(unittest.TestCase):
+    def test_clients_count_each_frame_with_its_age_and_its_sender_s_time(self):
+        with gateway.peer(7000, 50) as (pid, port):
+            seen = gateway.clients(port, "/", pid, 3, 0.5)
+        self.assertEqual(seen["bytes"], 7000 * seen["frames"])
+        self.assertGreater(seen["frames"], 3)
+        self.assertEqual(len(seen["ages_s"]), seen["frames"])
+        self.assertGreaterEqual(min(seen["ages_s"]), 0)
+        self.assertLess(min(seen["ages_s"]), 0.05)
+        self.assertGreaterEqual(seen["cpu_pct"], 0)
+
+    def test_only_a_refusal_with_a_remedy_is_polite(self):
+        head = b"HTTP/1.1 503 Service Unavailable\r\nRetry-After: 60\r\n\r\n"
+        self.assertTrue(gateway.polite(head + b'{"error": "full", "remedy": "try again"}'))
+        for rude in (b"", head, head + b'{"error": "full"}', b"HTTP/1.1 503 No\r\n\r\n{}"):
+            self.assertFalse(gateway.polite(rude), rude)
 
 
 class Lines(unittest.TestCase):

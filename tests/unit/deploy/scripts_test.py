@@ -118,7 +118,12 @@ options = dict(zip(sys.argv[2:], sys.argv[3:]))
 if "--play" in options:
     whole = pathlib.Path(options["--play"]).is_file()
     sys.exit(0 if whole and not options["--out"].endswith(os.environ["UNDRAWN"]) else 1)
-if sys.argv[1] in ("server", "display", "haptic", "record"):
+if sys.argv[1] == os.environ["FAILING"]:
+    sys.exit(3)
+if sys.argv[1] in ("server", "gateway", "display", "haptic", "record"):
+    if sys.argv[1] == "gateway":
+        print("operator's password, shown only now: operator secret\\nkiosk kiosk-1: http://there/kiosk/kiosk-1?token=t\\n"
+              "console: http://there/console\\nready", flush=True)
     print(" ready: ", flush=True)
     signal.sigwait([signal.SIGTERM])
     if sys.argv[1] == "record":
@@ -143,17 +148,17 @@ class WhatTheDemoStarts(unittest.TestCase):
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTERM])
         self.addCleanup(signal.pthread_sigmask, signal.SIG_SETMASK, mask)
 
-    def demo(self, *arguments, screen, undrawn="none"):
+    def demo(self, *arguments, screen, undrawn="none", failing="none"):
         """Runs the demo with stand-ins: the displays and recorders that it started, in order, each a list of arguments;
-        and what it complained of."""
+        and what it complained of. What it told is in self.told."""
         started = self.folder / "started"
         started.unlink(missing_ok=True)
-        environment = {"STARTED": str(started), "UNDRAWN": undrawn, "DISPLAY": screen, "WAYLAND_DISPLAY": ""}
-        with mock.patch.dict(os.environ, environment), contextlib.redirect_stdout(io.StringIO()), \
+        environment = {"STARTED": str(started), "UNDRAWN": undrawn, "FAILING": failing, "DISPLAY": screen, "WAYLAND_DISPLAY": ""}
+        with mock.patch.dict(os.environ, environment), contextlib.redirect_stdout(io.StringIO()) as told, \
                 contextlib.redirect_stderr(io.StringIO()) as complaints, \
                 mock.patch.object(sys, "argv", ["demo", "--bin", str(self.folder), "--out", str(self.out), "--domain", "7", *arguments]):
             demo.main()
-        commands = [json.loads(line) for line in started.read_text().splitlines()]
+        commands, self.told = [json.loads(line) for line in started.read_text().splitlines()], told.getvalue()
         return [command for command in commands if command[0] in ("display", "record")], complaints.getvalue()
 
     def test_without_a_window_it_records_and_draws_every_step_once_all_is_recorded(self):
@@ -180,6 +185,15 @@ class WhatTheDemoStarts(unittest.TestCase):
         displays, complaints = self.demo(screen=":0")
         self.assertEqual(sorted(displays), [["display", "--kiosk", kiosk, "--domain", "7"] for kiosk in ("kiosk-1", "village")])
         self.assertNotIn("picture", complaints)
+
+    def test_it_tells_the_addresses_for_browsers_and_ends_the_gateway(self):
+        _, complaints = self.demo(screen=":0")
+        for line in ("kiosk kiosk-1: http://there/kiosk/kiosk-1?token=t", "console: http://there/console", "operator secret"):
+            self.assertIn(line, self.told)
+        self.assertNotIn("gateway", complaints)
+        _, complaints = self.demo(screen=":0", failing="gateway")
+        self.assertIn("the gateway did not start", complaints)
+        self.assertNotIn("console", self.told)
 
 
 if __name__ == "__main__":

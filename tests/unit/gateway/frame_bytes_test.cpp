@@ -32,7 +32,7 @@ TEST(FrameBytes, AreAsTheManualSays) {
   ByteSource head{std::span<const std::byte>(header)};
   EXPECT_EQ(head.get<std::uint8_t>(), 1);
   EXPECT_EQ(head.get<std::uint8_t>(), 1);
-  EXPECT_EQ(head.get<std::uint16_t>(), 0);
+  EXPECT_EQ(head.get<std::uint16_t>(), 50'200);
   EXPECT_EQ(head.get<std::uint32_t>(), 4U);
   EXPECT_EQ(head.get<std::uint64_t>(), 9U);
   EXPECT_EQ(head.get<std::uint64_t>(), 12'000U);
