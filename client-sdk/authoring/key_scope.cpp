@@ -71,6 +71,8 @@ scenario::Names names_of(state::Reference reference) {
       return scenario::Names::agent;
     case state::Reference::activity:
       return scenario::Names::activity;
+    case state::Reference::expression:
+      return scenario::Names::formula;
     default:
       return scenario::Names::nothing;
   }

@@ -119,6 +119,36 @@ Every element may have `DEF` (its name), `USE` (it stands for the element of tha
 parent it fills). Two bodies in a joint are `<RigidBody containerField='body1' USE='POST'/>` and the same with `body2`, the one that moves.
 )";
 
+constexpr std::string_view kFormulaRules = R"(
+## Formulas
+
+The parameters of `machine.formula` are formulas. Each value is `NAME = FORMULA`, or `NAME = FORMULA in UNIT`: then a quantity can read it as
+`MACHINE.NAME`, in that unit (`in 1`: a pure number). Values are computed a thousand times a second in the order in which they stand.
+
+| in a formula | is |
+|---|---|
+| `9.81 m/s^2`, `3 N m/rad`, `5 l/min`, `20 degC` | a number with its unit: a blank between words, none at a slash |
+| `AXLE.angle`, `AXLE.position`, `AXLE.rate` | of a joint: rad and rad/s of a hinge, m and m/s of a slider |
+| `quantity.NAME` | a quantity, in its unit, as it was at the beginning of the tick |
+| `NAME` | a value that stands before this one |
+| `last(NAME)` | what this value, or one after it, was a tick ago; its formula must end with its unit |
+| `+ - * / ^`, `( )`, `pi` | as usual; after `^` a whole number from -9 to 9 |
+| `< <= > >=`, `and or not` | conditions; in XML `<` is written `&lt;` |
+| `if(CONDITION, A, B)`, `step(CONDITION)` | A or B; 1 or 0 |
+| `min(A, B)`, `max(A, B)`, `clamp(A, LOW, HIGH)`, `abs(A)`, `sqrt(A)`, `sin(A)`, `cos(A)` | as usual |
+| `integral(RATE, START, LOW, HIGH)` | grows by RATE in a second, from START, and never leaves LOW to HIGH; the last three may be left out |
+| `count(CONDITION)`, `sum(A, CONDITION)` | how often the condition has become true; the sum of what A was each time |
+
+- **Units are checked.** Both sides of `+` and of a comparison must have the same unit, and a load must come out in N m for a hinge, in N for
+  a slider or a force; `mechane check` says which part is in which unit. Angles are pure numbers, as in SI: N m/rad is N m. A bare 0 fits all.
+- Units are made of m, cm, mm, km, l, ml, kg, g, t, s, ms, min, h, Hz, rpm, N, kN, J, kJ, W, kW, Pa, kPa, bar, K, degC, rad, deg, turns
+  and %, with powers like `m2` or `m^2`.
+- **There is always a number.** A division by zero and the root of a negative number give 0, and what is beyond 1e30 is 1e30; `MACHINE.faults`
+  counts the ticks in which that happened. The branch of an `if` that is not taken does not count.
+- A load is never beyond `limit`. `load` is signed as the joint's position; `resistance` only brakes.
+- A quantity that is read must have the unit of its source. One that reads another machine is a tick late, and so is `last`.
+)";
+
 constexpr std::string_view kMetadataIntroduction = R"(
 ## Metadata
 
@@ -327,6 +357,7 @@ std::string reference_page() {
       "Machines",
       "A machine is the physics behind a joint: water, springs, steam. It is a set in `machines`, as agents are.",
       machines::registry());
+  page += kFormulaRules;
   page += "\n## What else quantities can read\n\n| source | unit | what it is |\n|---|---|---|\n";
   page += row({"`JOINT.angle`, `JOINT.position`", "rad or m", "where body2 stands against body1; 0 at the start"});
   page += row({"`JOINT.turns`", "", "the angle in turns"});

@@ -359,6 +359,30 @@ constexpr Piece kMachinePieces[] = {
 )"},
 };
 
+constexpr Piece kFormulaPieces[] = {
+    {"In `mechane:scenario`, beside `agents`", "mechane:scenario",
+     R"XML(<MetadataSet containerField='value' name='machines'>
+  <MetadataSet containerField='value' name='SPRING'>
+    <MetadataString containerField='value' name='type' value='"machine.formula"'/>
+    <MetadataString containerField='value' name='values' value='
+      "pull = 0.4 N m/rad * clamp(AXLE.angle, 0 rad, 2 turns) in N m"
+      "wound = integral(abs(AXLE.rate), 0 rad, 0 rad, 99 turns) in turns"
+      "visits = count(AXLE.angle > 0.5 turns) in 1"'/>
+    <MetadataString containerField='value' name='joint' value='"AXLE"'/>
+    <MetadataString containerField='value' name='load' value='"-pull"'/>
+    <MetadataString containerField='value' name='resistance' value='"0.05 N m s/rad * abs(AXLE.rate)"'/>
+  </MetadataSet>
+</MetadataSet>
+)XML"},
+    {"In `quantities`, names for two of its values", "quantities",
+     R"(<MetadataSet containerField='value' name='pull'>
+  <MetadataString containerField='value' name='source' value='"SPRING.pull"'/>
+  <MetadataString containerField='value' name='unit' value='"N m"'/>
+</MetadataSet>
+<MetadataString containerField='value' name='visits' value='"SPRING.visits"'/>
+)"},
+};
+
 constexpr Piece kLanguagePieces[] = {
     {"In `mechane:scenario`, in place of the line that names them; the first is shown first", "",
      R"(        <MetadataString containerField='value' name='languages' value='"el" "en"'/>
@@ -432,6 +456,11 @@ constexpr Variation kVariations[] = {
     {"A machine, and what is seen and heard of it",
      "Let the axle turn a small screw that lifts water into a tub. The mesh file has one node more, `WATER_TUB`.",
      kMachinePieces},
+    {"A machine of your own",
+     "Where no machine in the list below does what yours does, write its formulas: see *Formulas* near the end. Here "
+     "a spring\nin the hub pulls the wheel back, for two turns at most, grease brakes it, and what it has done can be "
+     "shown.",
+     kFormulaPieces},
     {"Another language", "Each text is written once for each language; `mechane check` names the missing ones.",
      kLanguagePieces},
     {"A sign to another exhibit",

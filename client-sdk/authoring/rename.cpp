@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "client-sdk/authoring/key_scope.hpp"
+#include "server/machines/formula_names.hpp"
 #include "server/x3d/metadata.hpp"
 #include "server/x3d/values.hpp"
 
@@ -135,6 +136,7 @@ class Renamer {
       case scenario::Names::activity:
         return &renames_.activities;
       case scenario::Names::source:
+      case scenario::Names::formula:
       case scenario::Names::language:
       case scenario::Names::nothing:
         break;
@@ -175,13 +177,17 @@ class Renamer {
 
   void rename_value(x3d::NodeId id, scenario::Names names) {
     const Map* map = map_for(names);
-    if (map == nullptr && names != scenario::Names::source) return;
+    if (map == nullptr && names != scenario::Names::source && names != scenario::Names::formula) return;
     const std::string* text = document_[id].attribute("value");
     if (text == nullptr || document_[id].name != "MetadataString") return;
     auto values = x3d::parse_strings(*text);
     if (!values) return;
     bool any = false;
     for (std::string& value : *values) {
+      if (names == scenario::Names::formula) {
+        any = rename_formula(value) || any;
+        continue;
+      }
       // A source, "PUMP.basin_l", is a name and one of its values.
       const std::size_t end = names == scenario::Names::source ? std::min(value.find('.'), value.size()) : value.size();
       const Map& of = names == scenario::Names::source ? renames_.things : *map;
@@ -191,6 +197,20 @@ class Renamer {
       any = true;
     }
     if (any) set_attribute(document_, id, "value", quote_strings(*values), edits_);
+  }
+
+  /// Whether anything in it has a new name.
+  bool rename_formula(std::string& formula) const {
+    bool any = false;
+    auto found = machines::names_in_formula(formula);
+    for (auto name = found.rbegin(); name != found.rend(); ++name) {
+      const Map& map = name->quantity ? renames_.quantities : renames_.things;
+      const auto it = map.find(formula.substr(name->begin, name->length));
+      if (it == map.end()) continue;
+      formula.replace(name->begin, name->length, it->second);
+      any = true;
+    }
+    return any;
   }
 
   const x3d::Document& document_;

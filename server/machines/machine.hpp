@@ -47,6 +47,7 @@ using MachineKind = state::ComponentKind<Machine, Build>;
 [[nodiscard]] const MachineKind& projectile_kind();
 [[nodiscard]] const MachineKind& steam_sphere_kind();
 [[nodiscard]] const MachineKind& pebble_counter_kind();
+[[nodiscard]] const MachineKind& formula_kind();
 
 /// All of them.
 [[nodiscard]] std::span<const MachineKind* const> kinds();

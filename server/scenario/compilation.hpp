@@ -68,7 +68,9 @@ void check_components(Compilation& c);    // parameters against their types; the
 void check_goals(Compilation& c);         // rules that their quantity can never meet
 void compile_visits(Compilation& c);
 void compile_hash(Compilation& c);
-void check_agents(Compilation& c);  // what their makers refuse; only of a world without errors
+void check_agents(Compilation& c);    // what their makers refuse; only of a world without errors
+void check_machines(Compilation& c);  // the same
+void check_formulas(Compilation& c);  // whether the quantities that formulas read are in the units that they say
 
 /// Warns of what compiles, but is likely not meant.
 void lint(Compilation& c);

@@ -165,6 +165,7 @@ void add_mates(Compilation& c, const state::ComponentDescription& component, con
 std::optional<std::vector<std::string>> named_by(const state::WorldDescription& world, state::Reference kind) {
   switch (kind) {
     case state::Reference::none:
+    case state::Reference::expression:
       break;
     case state::Reference::body:
       return names_of(world.bodies);
@@ -264,6 +265,13 @@ void check_agents(Compilation& c) {
     if (checked) continue;
     const Error& error = checked.error();
     c.problems.error(error.code, error.line, "agent " + c.world.agents[i].name, error.what, error.remedy);
+  }
+}
+
+void check_machines(Compilation& c) {
+  for (const auto& [machine, error] : machines::check(c.world)) {
+    c.problems.error(error.code, error.line, "machine " + c.world.machines[machine.index()].name, error.what,
+                     error.remedy);
   }
 }
 

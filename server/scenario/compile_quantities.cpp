@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "server/base/suggestion.hpp"
+#include "server/machines/formula_names.hpp"
+#include "server/machines/registry.hpp"
 #include "server/scenario/compilation.hpp"
 
 namespace mechane::scenario {
@@ -36,7 +38,11 @@ void add_fields(const state::EventNode& node, std::vector<std::string>& values) 
 std::vector<std::string> values_of(const state::WorldDescription& world, const std::string& name) {
   std::vector<std::string> values;
   if (const auto* agent = find_component(world.agents, name)) add_values(find_agent_type(agent->type), values);
-  if (const auto* machine = find_component(world.machines, name)) add_values(find_machine_type(machine->type), values);
+  if (const auto* machine = find_component(world.machines, name)) {
+    add_values(find_machine_type(machine->type), values);
+    for (const machines::OwnValue& own : machines::own_values(*machine))
+      values.push_back(own.name);
+  }
   const auto event = std::ranges::find(world.events.nodes, name, &state::EventNode::name);
   if (event != world.events.nodes.end()) add_fields(*event, values);
   if (world.find_joint(name)) values.insert(values.end(), {"position", "angle", "rate", "turns"});
@@ -93,6 +99,7 @@ void check_unit(Compilation& c, const std::string& unit, int line, const std::st
 
 /// The units of one source: its own first, then those that it is converted to.
 using Units = std::vector<std::string>;
+using OwnValues = std::vector<machines::OwnValue>;
 
 Units units_of(std::string_view value, std::string_view unit) {
   Units units{std::string(unit)};
@@ -122,6 +129,9 @@ Units units_of_source(const state::WorldDescription& world, const std::string& s
     if (type == nullptr) continue;
     const auto stated = std::ranges::find(type->values, value, &state::ValueType::name);
     if (stated != type->values.end()) return units_of(value, stated->unit);
+  }
+  for (const machines::OwnValue& own : machine != nullptr ? machines::own_values(*machine) : OwnValues()) {
+    if (own.name == value) return {own.unit};
   }
   if (const JointId joint = world.find_joint(name)) return units_of_joint(world.joints[joint.index()], value);
   if (world.find_body(name)) return units_of(value, value == "speed" ? "m/s" : "m");
@@ -166,6 +176,25 @@ void compile_quantities(Compilation& c) {
     }
     if (!quantity.source.empty()) check_source(c, quantity.source, line, where);
     c.world.quantities.push_back(std::move(quantity));
+  }
+}
+
+/// A quantity whose unit only labels it, or that has none, would give a formula a number of another unit.
+void check_formulas(Compilation& c) {
+  for (const state::ComponentDescription& machine : c.world.machines) {
+    for (const std::string& name : machines::quantities_in_formulas(machine)) {
+      const QuantityId id = c.world.find_quantity(name);
+      if (!id) continue;
+      const state::QuantityDescription& quantity = c.world.quantities[id.index()];
+      const Units units = units_of_source(c.world, quantity.source);
+      if (units.empty() || std::ranges::find(units, quantity.unit) != units.end()) continue;
+      const std::string in = units.front().empty() ? "a pure number" : "in " + units.front();
+      c.problems.error(ErrorCode::conflict, machine.line, "machine " + machine.name,
+                       fmt::format("a formula reads the quantity '{}', whose unit is '{}', but '{}' is {}", name,
+                                   quantity.unit, quantity.source, in),
+                       units.front().empty() ? fmt::format("leave out the unit of '{}'", name)
+                                             : fmt::format("give '{}' the unit {}", name, fmt::join(units, " or ")));
+    }
   }
 }
 

@@ -208,7 +208,11 @@ void compile_all(Compilation& c) {
   check_goals(c);
   compile_visits(c);
   compile_hash(c);
-  if (!c.problems.has_errors()) check_agents(c);
+  if (!c.problems.has_errors()) {
+    check_agents(c);
+    check_machines(c);
+    check_formulas(c);
+  }
   if (!c.problems.has_errors() && c.scenario) lint(c);
 }
 

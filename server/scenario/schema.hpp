@@ -24,8 +24,8 @@ enum class ValueKind {
   set,  ///< a MetadataSet with a table of its own, or with free names
 };
 
-/// What a string names.
-enum class Names { nothing, body, joint, agent, quantity, step, activity, model, source, language, view };
+/// What a string names. A formula names joints and quantities among other words.
+enum class Names { nothing, body, joint, agent, quantity, step, activity, model, source, language, view, formula };
 
 struct Table;
 

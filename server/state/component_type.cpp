@@ -72,6 +72,7 @@ Expected<void> check_reference(const ParameterType& type, const std::string& tex
   };
   switch (type.reference) {
     case Reference::none:
+    case Reference::expression:  // its machine reads it
       break;
     case Reference::body:
       if (!world.find_body(text)) return unknown("body", names_of_items(world.bodies));

@@ -21,8 +21,9 @@ enum class ParameterKind {
   boolean,
 };
 
-/// What a text names, so that a checker and an editor can offer the right list.
-enum class Reference { none, body, joint, agent, activity, quantity, machine };
+/// What a text names, so that a checker and an editor can offer the right list. An expression names several things, among other words:
+/// joints before a dot, and quantities after "quantity.".
+enum class Reference { none, body, joint, agent, activity, quantity, machine, expression };
 
 struct ParameterType {
   std::string_view name;

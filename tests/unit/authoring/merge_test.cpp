@@ -1,10 +1,12 @@
 // Two scenarios in one file: names that clash change everywhere.
 #include "client-sdk/authoring/merge.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
+#include "client-sdk/authoring/reference_example.hpp"
 #include "client-sdk/authoring/rename.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/mesh_finder.hpp"
@@ -202,6 +204,23 @@ TEST_F(MergeFiles, TheCommandWritesChecksAndSaysWhatItDid) {
   EXPECT_EQ(merge_files(std::vector<std::string>{file, "nowhere.x3d"}, out).error().code, ErrorCode::not_found);
   EXPECT_EQ(run_merge(std::vector<std::string>{file, "nowhere.x3d"}, out, none), 2);
   EXPECT_NE(none.str().find("nowhere.x3d"), std::string::npos);
+}
+
+TEST_F(MergeFiles, FormulasNameTheJointsOfTheirOwnFile) {
+  const auto variations = reference_variations();
+  const auto own = std::ranges::find(variations, "A machine of your own", &Variation::title);
+  ASSERT_NE(own, variations.end());
+  std::string text = reference_example_with(*own);
+  replace_first(text, "\"-pull\"", "\"-pull * step(quantity.turns &lt; 3)\"");
+  const state::WorldDescription two =
+      merged_world({write("one.x3d", text), write("other.x3d", text)}, folder / "in" / "two.x3d");
+  const MachineId second = two.find_machine("SPRING_2");
+  ASSERT_TRUE(second);
+  const state::ComponentDescription& machine = two.machines[second.index()];
+  EXPECT_EQ(machine.written<std::vector<std::string>>("values")->at(0),
+            "pull = 0.4 N m/rad * clamp(AXLE_2.angle, 0 rad, 2 turns) in N m");
+  EXPECT_EQ(*machine.written_text("load"), "-pull * step(quantity.turns_2 < 3)");
+  EXPECT_EQ(*two.machines[0].written_text("load"), "-pull * step(quantity.turns < 3)");
 }
 
 TEST(Renames, AreNewToBothFiles) {

@@ -98,6 +98,10 @@ TEST(Reference, VariationsSayWhatTheyPromise) {
   const auto machine = read_variation("A machine, and what is seen and heard of it");
   EXPECT_EQ(machine.machines.size(), 1u);
   EXPECT_EQ(machine.effects.size(), 3u);
+  const auto spring = read_variation("A machine of your own");
+  ASSERT_EQ(spring.machines.size(), 1u);
+  EXPECT_EQ(machines::own_values(spring.machines[0]).size(), 3u);
+  EXPECT_EQ(spring.quantities.back().source, "SPRING.visits");
   EXPECT_EQ(read_variation("Another language").languages, (std::vector<std::string>{"el", "en"}));
   const auto sign = read_variation("A sign to another exhibit");
   ASSERT_EQ(sign.steps.size(), 2u);
