@@ -51,7 +51,7 @@ void KioskKeeper::tick(GatewaySite& site, std::int64_t now, TimePoint at) {
   }
   wake_kiosks(site, now, at);
   take_back(site, now, at);
-  std::erase_if(next_request_, [at](const auto& one) { return one.second < at; });
+  std::erase_if(asked_, [at](const auto& one) { return one.second.again < at; });
 }
 
 /// A visit ends politely where its kiosk gets a sign: the kiosk goes home.
@@ -76,8 +76,11 @@ void KioskKeeper::keep_displays(GatewaySite& site, const std::string& kiosk, con
     for (const client::DisplaySetting& setting : wanted)
       if (const std::string* has = setting_in(display, setting.name); has != nullptr && *has != setting.value)
         different.push_back(setting);
-    if (different.empty() || !next_request_.try_emplace(display.session, at + kAskAgain).second) continue;
+    // What was asked otherwise since is asked at once.
+    const auto asked = asked_.find(display.session);
+    if (different.empty() || (asked != asked_.end() && asked->second.settings == different)) continue;
     ask(site, display, different);
+    asked_.insert_or_assign(display.session, Asked{at + kAskAgain, std::move(different)});
   }
 }
 

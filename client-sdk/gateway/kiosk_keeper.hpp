@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
+
+#include <mechane/client/displays.hpp>
 
 #include "server/base/clock.hpp"
 
@@ -33,6 +36,10 @@ class KioskKeeper {
     int wakes_left = 0;
     TimePoint next_wake;
   };
+  struct Asked {
+    TimePoint again;
+    std::vector<client::DisplaySetting> settings;
+  };
   void lead_home(GatewaySite& site, const std::string& kiosk, const KioskWish& wish);
   void keep_displays(GatewaySite& site, const std::string& kiosk, const KioskWish& wish, TimePoint at);
   void wake_kiosks(GatewaySite& site, std::int64_t now, TimePoint at);
@@ -42,8 +49,8 @@ class KioskKeeper {
 
   TimePoint next_look_;
   std::map<std::string, Kept> kept_;
-  std::map<std::uint64_t, TimePoint> next_request_;  ///< by a display's session
-  std::map<std::uint64_t, Tries> tries_;             ///< by a change's id
+  std::map<std::uint64_t, Asked> asked_;  ///< by a display's session
+  std::map<std::uint64_t, Tries> tries_;  ///< by a change's id
 };
 
 }  // namespace mechane::gateway
