@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <mechane/client/displays.hpp>
-
 #include "server/base/clock.hpp"
+#include <mechane/client/displays.hpp>
 
 namespace mechane::gateway {
 
