@@ -16,7 +16,7 @@ function faultsOfServer(server: ServerInfo): Fault[] {
   if (!server.reached)
     return [{ where, what: 'No server answers.', remedy: 'Start one in the gateway\'s DDS domain, and open a kiosk once: the gateway hears a server through a kiosk in use.' }];
   const all: Fault[] = [];
-  if (server.overload) all.push({ where, what: server.overload, remedy: 'Until then forces come late, and clients lower them.' });
+  if (server.overload) all.push({ where, what: `${server.overload}.`, remedy: 'Until then forces come late, and clients lower them.' });
   if (!server.recordsOk) all.push({ where, what: 'Visits are not being recorded.', remedy: 'Make room on the server\'s disk, and look at its log.' });
   if (!server.realtime) all.push({ where, what: 'The loop has no real-time priority.', remedy: 'Run mechane doctor on the server\'s machine.' });
   if (server.wakeUsP99 > kLateWake_us)
