@@ -10,7 +10,7 @@ const app = process.argv[2];
 const gateway = new StandIn(app, 'pulley-crane', 'DRUM');
 const origin = await gateway.start();
 const { port } = gateway;
-const { browser, page, errors } = await openBrowser({ viewport: { width: 480, height: 360 } });
+const { browser, page, errors } = await openBrowser({ viewport: { width: 240, height: 180 } });
 const folder = mkdtempSync(join(tmpdir(), 'mechane-app-'));
 
 const kept = () => page.evaluate(async () => {
@@ -75,9 +75,8 @@ const parts = {
     edit('index.html', (html) => html.replace('<title>', '<meta name="version" content="next"><title>'));
     edit('sw.js', (code) => code.replace(before.replace('mechane-shell-', ''), '0123456789ab'));
     gateway.app = folder;
+    await page.goto(`${origin}/console`);  // a page that draws nothing
     const version = () => page.evaluate(() => document.querySelector('meta[name=version]')?.content ?? null);
-    assert.equal(await version(), null);
-    await page.reload();
     assert.equal(await version(), 'next');
     await eventually('the new one is kept', async () => '0123456789ab' === Object.keys(await kept()).at(-1)?.slice(14) &&
       await page.evaluate(async () => (await navigator.serviceWorker.getRegistration()).installing === null));
