@@ -232,16 +232,13 @@ std::optional<std::int64_t> next_change(const HoursPlan& plan, std::int64_t at) 
   for (int day = 0; day < kDaysAhead; ++day) {
     // Noon is on the day that is meant, however the clock is set.
     const std::tm noon = local_of(time_of(today, day, 12 * 60));
-    std::vector<std::int64_t> times{time_of(today, day, 0)};
-    for (const OpenSpan& span : hours_on(plan, noon)) {
-      for (const int minutes : {span.from_min, span.to_min}) {
-        const std::int64_t first = time_of(today, day, minutes);
-        for (const std::int64_t shift : {-3600, 0, 3600})  // an hour that the clock shows twice
-          times.push_back(first + shift);
-      }
-    }
-    for (int hour = 0; hour <= 3; ++hour)  // the clock may be set at night, and the state with it
-      times.push_back(time_of(today, day, 60 * hour));
+    std::vector<int> minutes{0, 60, 120, 180};  // the clock may be set at night, and the state with it
+    for (const OpenSpan& span : hours_on(plan, noon))
+      minutes.insert(minutes.end(), {span.from_min, span.to_min});
+    std::vector<std::int64_t> times;
+    for (const int minute : minutes)
+      for (const std::int64_t shift : {-3600, 0, 3600})  // an hour that the clock shows twice
+        times.push_back(time_of(today, day, minute) + shift);
     std::ranges::sort(times);
     for (const std::int64_t time : times)
       if (time > at && is_open(plan, time) != before) return time;
