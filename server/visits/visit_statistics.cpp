@@ -148,6 +148,7 @@ std::vector<EndingCount> count_by(std::span<const VisitRecord> records, std::str
     count.left += record.ending == VisitEnding::left ? 1 : 0;
   }
   std::vector<EndingCount> sorted;
+  sorted.reserve(counts.size());
   for (auto& [name, count] : counts)
     sorted.push_back(std::move(count));
   return sorted;
