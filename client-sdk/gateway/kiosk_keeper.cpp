@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <ctime>
 
+#include <fmt/format.h>
+
 #include "client-sdk/gateway/operator_api.hpp"
 #include "client-sdk/gateway/wake_on_lan.hpp"
 #include "server/log/log.hpp"
@@ -109,7 +111,7 @@ void KioskKeeper::take_back(GatewaySite& site, std::int64_t now, TimePoint at) {
     Tries& tries = tries_[change.id];
     if (at < tries.next) return false;
     tries.next = at + kAskAgain;
-    if (tries.count == 0) site.note_own("ended", change.kiosk + ": " + change.name + "=" + change.value);
+    if (tries.count == 0) site.note_own("ended", fmt::format("{}: {}={}", change.kiosk, change.name, change.value));
     const bool done = is_back(site, change) || ++tries.count >= kTries;
     if (done) tries_.erase(change.id);
     return done;

@@ -116,7 +116,7 @@ Expected<HoursPlan> parse_plan(const HoursJson& json, const std::string& field) 
   for (const auto& [name, hours] : json["week"].items()) {
     const auto* const day = std::ranges::find(kDays, name);
     if (day == kDays.end()) return wrong_hours("this is no day of the week", field + ".week", "write monday to sunday");
-    auto parsed = parse_day(hours, field + ".week." + name);
+    auto parsed = parse_day(hours, fmt::format("{}.week.{}", field, name));
     if (!parsed) return tl::unexpected(parsed.error());
     plan.week.at(static_cast<std::size_t>(day - kDays.begin())) = std::move(*parsed);
   }
@@ -130,7 +130,7 @@ Expected<HoursPlan> parse_plan(const HoursJson& json, const std::string& field) 
   for (const auto& [date, hours] : exceptions->items()) {
     if (!is_date(date))
       return wrong_hours("this is no date", field + ".exceptions", "write the year, month and day: 2026-12-25");
-    auto parsed = parse_day(hours, field + ".exceptions." + date);
+    auto parsed = parse_day(hours, fmt::format("{}.exceptions.{}", field, date));
     if (!parsed) return tl::unexpected(parsed.error());
     plan.exceptions[date] = std::move(*parsed);
   }

@@ -46,7 +46,7 @@ std::vector<std::string> names_of(const std::vector<VisitRecord>& records, std::
 
 }  // namespace
 
-VisitsDesk::VisitsDesk(fs::path records, fs::path state, Post post)
+VisitsDesk::VisitsDesk(const fs::path& records, const fs::path& state, Post post)
     : file_(records.empty() ? fs::path() : records / visits::kVisitFileName),
       remarks_(state / visits::kRemarkBookName),
       post_(std::move(post)) {}

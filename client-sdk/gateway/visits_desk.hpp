@@ -36,7 +36,7 @@ class VisitsDesk {
   using Post = std::function<void(std::function<void()>)>;
 
   /// `records`: empty where the gateway has none. `post` runs a job on the loop's thread.
-  VisitsDesk(std::filesystem::path records, std::filesystem::path state, Post post);
+  VisitsDesk(const std::filesystem::path& records, const std::filesystem::path& state, Post post);
 
   /// `done` gets what `answer` makes, on the desk's thread, of the visits.
   void read(const VisitsQuery& query, std::function<HttpAnswer(const VisitsFound&)> answer, Site::Done done);
