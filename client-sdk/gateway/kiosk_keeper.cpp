@@ -100,7 +100,7 @@ void KioskKeeper::wake_kiosks(GatewaySite& site, std::int64_t now, TimePoint at)
     const auto address = parse_mac(mac);
     if (!address) continue;
     if (auto sent = wake(*address, site.options().wake_to); !sent) log::error(sent.error());
-    site.note_own("wake", kiosk + ": " + mac);
+    site.note_own("wake", fmt::format("{}: {}", kiosk, mac));
   }
 }
 

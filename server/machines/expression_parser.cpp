@@ -349,6 +349,7 @@ class FormulaParser : private FormulaTokens {
   template <class Items>
   static std::vector<std::string> names_of(const Items& items) {
     std::vector<std::string> names;
+    names.reserve(items.size());
     for (const auto& item : items)
       names.push_back(item.name);
     return names;
