@@ -122,8 +122,8 @@ parent it fills). Two bodies in a joint are `<RigidBody containerField='body1' U
 constexpr std::string_view kFormulaRules = R"(
 ## Formulas
 
-The parameters of `machine.formula` are formulas. Each value is `NAME = FORMULA`, or `NAME = FORMULA in UNIT`: then a quantity can read it as
-`MACHINE.NAME`, in that unit (`in 1`: a pure number). Values are computed a thousand times a second in the order in which they stand.
+The parameters of `machine.formula` are formulas. Each value is `NAME = FORMULA`, or `NAME = FORMULA in UNIT`: then a quantity can read it
+as `MACHINE.NAME`, in that unit (`in 1`: a pure number). Values are computed a thousand times a second in the order in which they stand.
 
 | in a formula | is |
 |---|---|
@@ -139,12 +139,13 @@ The parameters of `machine.formula` are formulas. Each value is `NAME = FORMULA`
 | `integral(RATE, START, LOW, HIGH)` | grows by RATE in a second, from START, and never leaves LOW to HIGH; the last three may be left out |
 | `count(CONDITION)`, `sum(A, CONDITION)` | how often the condition has become true; the sum of what A was each time |
 
-- **Units are checked.** Both sides of `+` and of a comparison must have the same unit, and a load must come out in N m for a hinge, in N for
-  a slider or a force; `mechane check` says which part is in which unit. Angles are pure numbers, as in SI: N m/rad is N m. A bare 0 fits all.
+- **Units are checked.** Both sides of `+` and of a comparison must have the same unit, and a load must come out in N m for a hinge, in N
+  for a slider or a force; `mechane check` says which part is in which unit. Angles are pure numbers, as in SI: N m/rad is N m. A bare 0
+  fits all.
 - Units are made of m, cm, mm, km, l, ml, kg, g, t, s, ms, min, h, Hz, rpm, N, kN, J, kJ, W, kW, Pa, kPa, bar, K, degC, rad, deg, turns
   and %, with powers like `m2` or `m^2`.
-- **There is always a number.** A division by zero and the root of a negative number give 0, and what is beyond 1e30 is 1e30; `MACHINE.faults`
-  counts the ticks in which that happened. The branch of an `if` that is not taken does not count.
+- **There is always a number.** A division by zero and the root of a negative number give 0, and what is beyond 1e30 is 1e30;
+  `MACHINE.faults` counts the ticks in which that happened. The branch of an `if` that is not taken does not count.
 - A load is never beyond `limit`. `load` is signed as the joint's position; `resistance` only brakes.
 - A quantity that is read must have the unit of its source. One that reads another machine is a tick late, and so is `last`.
 )";

@@ -79,7 +79,7 @@ Expected<std::vector<VisitRecord>> VisitsCommand::read(const VisitChoice& choice
   auto records = opened->records(choice);
   if (!records || options_.remarks.empty()) return records;
   if (std::error_code code; !fs::exists(options_.remarks, code)) {
-    return fail(ErrorCode::not_found, "there is no file of remarks", options_.remarks.string(),
+    return fail(ErrorCode::not_found, "the file of remarks does not exist", options_.remarks.string(),
                 "name remarks.json in the gateway's folder (--state)");
   }
   const auto book = visits::RemarkBook::open(options_.remarks);

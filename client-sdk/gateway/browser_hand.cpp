@@ -49,7 +49,7 @@ void BrowserHand::take_one(const PointerMessage::One& one, const picture::Sight&
   }
 }
 
-/// False: there is no hand to take it with.
+/// Returns false where no hand is free to take it.
 bool BrowserHand::press(std::size_t hand, const PointerMessage::One& one, picture::PixelPlace place,
                         const picture::Sight& sight) {
   pointer::PointerTouch* const touch = hands_.made(hand);

@@ -230,14 +230,13 @@ TextJson hand_json(const HandTold& hand) {
   using View = pointer::PointerView;
   constexpr std::array<std::string_view, 4> kPhases{"resting", "reaching", "holding", "leaving"};
   constexpr std::array<std::string_view, 3> kDrags{"carry", "turn", "slide"};
-  constexpr std::array<std::string_view, 4> kLinks{"none", "waiting", "joined", "refused"};
   const View& view = hand.view;
   TextJson out{{"phase", kPhases[static_cast<std::size_t>(view.phase)]},
                {"drag", kDrags[static_cast<std::size_t>(view.drag)]},
                {"object", view.object},
                {"p", vector_json(view.p_WH)},
                {"radius", view.radius_m},
-               {"link", kLinks[static_cast<std::size_t>(hand.link)]}};
+               {"link", link_word(hand.link)}};
   if (view.p_WG) out["goal"] = vector_json(*view.p_WG);
   if (view.phase == View::Phase::holding && view.drag == View::Drag::turn)
     out["axle"] = {{"p", vector_json(view.axle.p_W)}, {"d", vector_json(view.axle.a_W)}};
@@ -245,6 +244,11 @@ TextJson hand_json(const HandTold& hand) {
 }
 
 }  // namespace
+
+std::string_view link_word(pointer::PointerLinkState link) {
+  constexpr std::array<std::string_view, 4> kLinks{"none", "waiting", "joined", "refused"};
+  return kLinks.at(static_cast<std::size_t>(link));
+}
 
 std::string pointer_text(std::span<const HandTold> hands) {
   TextJson out = hand_json(hands.front());

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "client-sdk/gateway/browser_hand.hpp"
 #include "client-sdk/picture/overlay_content.hpp"
@@ -26,6 +27,8 @@ struct BrowserWords {
   std::string subtitle;
 };
 [[nodiscard]] std::string overlay_text(const BrowserWords& words);
+/// As the wire calls it: none, waiting, joined, refused.
+[[nodiscard]] std::string_view link_word(pointer::PointerLinkState link);
 /// At least one.
 [[nodiscard]] std::string pointer_text(std::span<const HandTold> hands);
 [[nodiscard]] std::string event_text(const client::WorldEvent& event);

@@ -24,6 +24,12 @@ HttpAnswer answer_with(std::string body, std::string content_type, unsigned stat
   return answer;
 }
 
+HttpAnswer fresh_answer(std::string body, std::string content_type, unsigned status) {
+  HttpAnswer answer = answer_with(std::move(body), std::move(content_type), status);
+  answer.headers.emplace_back("Cache-Control", "no-store");
+  return answer;
+}
+
 HttpAnswer refusal(unsigned status, const std::string& what, const std::string& remedy) {
   const nlohmann::json text{{"error", what}, {"remedy", remedy}};
   return answer_with(text.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json", status);

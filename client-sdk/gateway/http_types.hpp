@@ -45,6 +45,9 @@ struct HttpAnswer {
 };
 
 [[nodiscard]] HttpAnswer answer_with(std::string body, std::string content_type, unsigned status = 200);
+/// The same, and nobody on the way may keep it.
+[[nodiscard]] HttpAnswer fresh_answer(std::string body, std::string content_type = "application/json",
+                                      unsigned status = 200);
 /// {"error": what happened, "remedy": what to do}.
 [[nodiscard]] HttpAnswer refusal(unsigned status, const std::string& what, const std::string& remedy);
 /// The same of an Error, with the status that fits its code.

@@ -91,9 +91,7 @@ void KioskKeeper::wake_kiosks(GatewaySite& site, std::int64_t now, TimePoint at)
   for (const auto& [kiosk, mac] : state.hours.wake) {
     Kept& kept = kept_[kiosk];
     const bool open = wish_of(state, kiosk, now).open;
-    if (open && !std::exchange(kept.open, open)) kept.wakes_left = kWakes;
-    kept.open = open;
-    if (!open) kept.wakes_left = 0;
+    if (open != std::exchange(kept.open, open)) kept.wakes_left = open ? kWakes : 0;
     if (kept.wakes_left == 0 || at < kept.next_wake) continue;
     --kept.wakes_left;
     kept.next_wake = at + kWakeAgain;

@@ -79,7 +79,7 @@ bool is_date(std::string_view text) {
 
 Expected<OpenSpan> parse_span(const HoursJson& json, const std::string& field) {
   const auto wrong = [&field] {
-    return wrong_hours("these are no hours of a day", field,
+    return wrong_hours("this is not a span of hours within a day", field,
                        "write \"10:00-18:00\"; what goes past midnight ends at 24:00 and goes on the next day");
   };
   if (!json.is_string()) return wrong();
@@ -111,11 +111,13 @@ Expected<DayHours> parse_day(const HoursJson& json, const std::string& field) {
 
 Expected<HoursPlan> parse_plan(const HoursJson& json, const std::string& field) {
   if (!json.is_object() || !json.contains("week") || !json["week"].is_object())
-    return wrong_hours("there is no week", field, R"(write {"week": {"monday": ["10:00-18:00"]}, "exceptions": {}})");
+    return wrong_hours("the plan has no week", field,
+                       R"(write {"week": {"monday": ["10:00-18:00"]}, "exceptions": {}})");
   HoursPlan plan;
   for (const auto& [name, hours] : json["week"].items()) {
     const auto* const day = std::ranges::find(kDays, name);
-    if (day == kDays.end()) return wrong_hours("this is no day of the week", field + ".week", "write monday to sunday");
+    if (day == kDays.end())
+      return wrong_hours("this is not a day of the week", field + ".week", "write monday to sunday");
     auto parsed = parse_day(hours, fmt::format("{}.week.{}", field, name));
     if (!parsed) return tl::unexpected(parsed.error());
     plan.week.at(static_cast<std::size_t>(day - kDays.begin())) = std::move(*parsed);
@@ -129,7 +131,7 @@ Expected<HoursPlan> parse_plan(const HoursJson& json, const std::string& field) 
                 "remove those of the past");
   for (const auto& [date, hours] : exceptions->items()) {
     if (!is_date(date))
-      return wrong_hours("this is no date", field + ".exceptions", "write the year, month and day: 2026-12-25");
+      return wrong_hours("this is not a date", field + ".exceptions", "write the year, month and day: 2026-12-25");
     auto parsed = parse_day(hours, fmt::format("{}.exceptions.{}", field, date));
     if (!parsed) return tl::unexpected(parsed.error());
     plan.exceptions[date] = std::move(*parsed);
@@ -137,7 +139,7 @@ Expected<HoursPlan> parse_plan(const HoursJson& json, const std::string& field) 
   return plan;
 }
 
-/// A member that is an object by kiosk; empty where there is none.
+/// The member: an object whose keys are names of kiosks. An empty object where it is missing.
 Expected<HoursJson> by_kiosk(const HoursJson& json, const char* member) {
   const auto found = json.find(member);
   if (found == json.end()) return HoursJson::object();
@@ -196,7 +198,8 @@ Expected<OpeningHours> parse_hours(std::string_view text) {
   for (const auto& [kiosk, mac] : wake->items()) {
     const auto address = mac.is_string() ? parse_mac(mac.get<std::string>()) : std::nullopt;
     if (!address)
-      return wrong_hours("this is no MAC address", "wake." + kiosk, "write six pairs of hex digits: 02:00:5e:10:00:01");
+      return wrong_hours("this is not a MAC address", "wake." + kiosk,
+                         "write six pairs of hex digits: 02:00:5e:10:00:01");
     hours.wake[kiosk] = mac_text(*address);
   }
   return hours;

@@ -55,7 +55,7 @@ std::optional<std::map<std::string, std::string>> texts_member(const StoreJson& 
 /// Texts of a message: each can be a setting of a display.
 Expected<std::map<std::string, std::string>> message_texts(const StoreJson& json) {
   const auto texts = texts_member(json, "texts");
-  if (!texts) return wrong_order("there are no texts", "texts", R"(send {"texts": {"el": "...", "en": "..."}})");
+  if (!texts) return wrong_order("the message has no texts", "texts", R"(send {"texts": {"el": "...", "en": "..."}})");
   std::map<std::string, std::string> out;
   for (const auto& [language, text] : *texts) {
     if (text.empty()) continue;
@@ -77,9 +77,10 @@ Expected<std::vector<std::string>> kiosks_member(const StoreJson& json) {
   const auto found = json.find("kiosks");
   if (found == json.end()) return out;
   if (!found->is_array() || found->size() > OpeningHours::kMostKiosks)
-    return wrong_order("these are no kiosks", "kiosks", "send a list of names; [] is all of them");
+    return wrong_order("kiosks is not a list of a hundred names at most", "kiosks",
+                       "send a list of names; [] is all of them");
   for (const StoreJson& kiosk : *found) {
-    if (!kiosk.is_string()) return wrong_order("this is no kiosk", "kiosks", "send a list of names");
+    if (!kiosk.is_string()) return wrong_order("a kiosk's name is not a text", "kiosks", "send a list of names");
     out.push_back(kiosk.get<std::string>());
     if (auto named = proto::check_name(out.back(), "kiosks"); !named) return tl::unexpected(named.error());
   }
@@ -127,6 +128,24 @@ bool read_maintenance(const StoreJson& json, OperationsState& into) {
   return true;
 }
 
+Expected<std::optional<std::int64_t>> end_in(const StoreJson& json, std::int64_t now) {
+  if (!json.is_object()) return wrong_order("this request is not a JSON object", "until", "send an object");
+  const auto minutes = json.find("minutes"), until = json.find("until");
+  if (minutes != json.end() && until != json.end())
+    return wrong_order("an end is given twice", "until", "send minutes, or until");
+  if (minutes != json.end()) {
+    const double count = minutes->is_number() ? minutes->get<double>() : 0;
+    if (!(count > 0 && count <= kMostMinutes))
+      return wrong_order("minutes is not a number from above 0 to 10080", "minutes",
+                         "write how many minutes it lasts: a week at most");
+    return now + std::max<std::int64_t>(1, static_cast<std::int64_t>(60 * count));
+  }
+  if (until == json.end()) return std::nullopt;
+  const auto at = until->is_string() ? minutes_of_day(until->get<std::string>()) : std::nullopt;
+  if (!at) return wrong_order("until is not a time of the day", "until", "write hours and minutes: 18:30");
+  return next_at(*at, now);
+}
+
 bool is_for(const VisitorMessage& message, const std::string& kiosk) {
   return message.kiosks.empty() || std::ranges::count(message.kiosks, kiosk) > 0;
 }
@@ -172,29 +191,14 @@ std::string operations_text(const OperationsState& state) {
 }
 
 Expected<std::optional<std::int64_t>> parse_end(std::string_view text, std::int64_t now) {
-  const StoreJson json = StoreJson::parse(text, nullptr, false);
-  if (!json.is_object()) return wrong_order("this request is not a JSON object", "until", "send an object");
-  const auto minutes = json.find("minutes"), until = json.find("until");
-  if (minutes != json.end() && until != json.end())
-    return wrong_order("an end is given twice", "until", "send minutes, or until");
-  if (minutes != json.end()) {
-    const double count = minutes->is_number() ? minutes->get<double>() : 0;
-    if (!(count > 0 && count <= kMostMinutes))
-      return wrong_order("this is no number of minutes", "minutes",
-                         "write a number above 0, and a week (10080) at most");
-    return now + std::max<std::int64_t>(1, static_cast<std::int64_t>(60 * count));
-  }
-  if (until == json.end()) return std::nullopt;
-  const auto at = until->is_string() ? minutes_of_day(until->get<std::string>()) : std::nullopt;
-  if (!at) return wrong_order("this is no time of the day", "until", "write hours and minutes: 18:30");
-  return next_at(*at, now);
+  return end_in(StoreJson::parse(text, nullptr, false), now);
 }
 
 Expected<VisitorMessage> parse_visitor_message(std::string_view text, std::int64_t now) {
-  const auto end = parse_end(text, now);
+  const StoreJson json = StoreJson::parse(text, nullptr, false);
+  const auto end = end_in(json, now);
   if (!end) return tl::unexpected(end.error());
   if (!*end) return wrong_order("the message has no end", "minutes", R"(send {"minutes": 30}, or {"until": "18:30"})");
-  const StoreJson json = StoreJson::parse(text, nullptr, false);
   auto texts = message_texts(json);
   if (!texts) return tl::unexpected(texts.error());
   auto kiosks = kiosks_member(json);

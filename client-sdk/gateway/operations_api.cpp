@@ -5,9 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/operator_api.hpp"
 #include "client-sdk/gateway/wake_on_lan.hpp"
-#include "server/log/log.hpp"
-#include <mechane/proto/names.hpp>
 
 namespace mechane::gateway {
 namespace {
@@ -17,9 +16,7 @@ using OrderJson = nlohmann::json;
 constexpr Duration kRestartsWithin = std::chrono::seconds(5);
 
 HttpAnswer order_answer(const OrderJson& json) {
-  HttpAnswer answer = answer_with(json.dump(-1, ' ', false, OrderJson::error_handler_t::replace), "application/json");
-  answer.headers.emplace_back("Cache-Control", "no-store");
-  return answer;
+  return fresh_answer(json.dump(-1, ' ', false, OrderJson::error_handler_t::replace));
 }
 
 void store(GatewaySite& site, OperationsState next, const OrderJson& json, const Site::Done& done) {
@@ -39,8 +36,7 @@ void add_message(GatewaySite& site, const std::string& body, const Site::Done& d
   auto message = parse_visitor_message(body, wall_now());
   if (!message) return done(refusal(message.error()));
   for (const std::string& kiosk : message->kiosks)
-    if (!site.knows_kiosk(kiosk))
-      return done(refusal(404, "there is no kiosk '" + kiosk + "'", "GET /api/kiosks lists them"));
+    if (!site.knows_kiosk(kiosk)) return done(unknown_kiosk(kiosk));
   OperationsState next = without_ended(site.operations().state(), wall_now());
   if (next.messages.size() >= OperationsState::kMostMessages)
     return done(refusal(409, "there are too many messages", "remove one that is not needed"));
@@ -127,8 +123,7 @@ bool post_order_of_kiosk(GatewaySite& site, const std::string& kiosk, const std:
                          const Site::Done& done) {
   if (verb != "maintenance" && verb != "restart" && verb != "wake") return false;
   if (verb == "wake") return wake_kiosk(site, kiosk, done), true;  // it sleeps, and may not be known
-  if (!site.knows_kiosk(kiosk))
-    return done(refusal(404, "there is no kiosk '" + kiosk + "'", "GET /api/kiosks lists them")), true;
+  if (!site.knows_kiosk(kiosk)) return done(unknown_kiosk(kiosk)), true;
   const OrderJson json = OrderJson::parse(body, nullptr, false);
   if (verb == "restart") return restart_display(site, kiosk, json, done), true;
   return maintain(site, kiosk, json, body, done), true;
@@ -171,14 +166,6 @@ std::vector<TimedChange> changes_in(GatewaySite& site, const std::string& kiosk,
   return out;
 }
 
-OrderJson changes_json(const std::vector<TimedChange>& changes) {
-  OrderJson out = OrderJson::array();
-  for (const TimedChange& one : changes)
-    out.push_back(
-        {{"id", one.id}, {"kiosk", one.kiosk}, {"name", one.name}, {"value", one.value}, {"until", one.until}});
-  return out;
-}
-
 std::string zone_name(std::int64_t now) {
   const std::time_t time = now;
   std::tm local{};
@@ -191,11 +178,12 @@ std::string zone_name(std::int64_t now) {
 HttpAnswer operations_answer(GatewaySite& site) {
   const OperationsState& state = site.operations().state();
   const std::int64_t now = wall_now();
-  OrderJson messages = OrderJson::array(), maintenance = OrderJson::object(), kiosks = OrderJson::array();
-  for (const VisitorMessage& one : state.messages)
-    messages.push_back({{"id", one.id}, {"kiosks", one.kiosks}, {"texts", one.texts}, {"until", one.until}});
-  for (const auto& [kiosk, until] : state.maintenance)
-    maintenance[kiosk] = until ? OrderJson(*until) : OrderJson();
+  // What is stored, but for what only the gateway needs.
+  OrderJson out = OrderJson::parse(operations_text(state));
+  out.erase("nextId");
+  for (OrderJson& change : out["changes"])
+    change.erase("before");
+  OrderJson kiosks = OrderJson::array();
   for (const std::string& kiosk : site.kiosks()) {
     const KioskWish wish = wish_of(state, kiosk, now);
     const HoursPlan* const plan = plan_of(state.hours, kiosk);
@@ -205,13 +193,8 @@ HttpAnswer operations_answer(GatewaySite& site) {
                       {"sign", wish.sign},
                       {"changesAt", changes ? OrderJson(*changes) : OrderJson()}});
   }
-  return order_answer({{"now", now},
-                       {"zone", zone_name(now)},
-                       {"hours", OrderJson::parse(hours_text(state.hours))},
-                       {"messages", messages},
-                       {"maintenance", maintenance},
-                       {"changes", changes_json(state.changes)},
-                       {"kiosks", kiosks}});
+  out.update({{"now", now}, {"zone", zone_name(now)}, {"kiosks", kiosks}});
+  return order_answer(out);
 }
 
 bool answer_operations_post(GatewaySite& site, const HttpRequest& request, const Site::Done& done) {

@@ -24,19 +24,12 @@ constexpr Duration kAnswersWithin = std::chrono::seconds(5);
 constexpr Duration kPictureWithin = std::chrono::seconds(20);
 constexpr std::size_t kAuditShown = 500;
 
-HttpAnswer json_answer(const ApiJson& json, unsigned status = 200) {
-  HttpAnswer answer =
-      answer_with(json.dump(-1, ' ', false, ApiJson::error_handler_t::replace), "application/json", status);
-  answer.headers.emplace_back("Cache-Control", "no-store");
-  return answer;
+HttpAnswer json_answer(const ApiJson& json) {
+  return fresh_answer(json.dump(-1, ' ', false, ApiJson::error_handler_t::replace));
 }
 
 HttpAnswer not_allowed(std::string_view role) {
   return refusal(403, "this is for the role " + std::string(role), "sign in as somebody who has it");
-}
-
-HttpAnswer unknown_kiosk(const std::string& kiosk) {
-  return refusal(404, "there is no kiosk '" + kiosk + "'", "GET /api/kiosks lists them");
 }
 
 ApiJson display_json(const DisplayStatus& display) {
@@ -159,28 +152,6 @@ std::optional<std::string> stated(const ApiJson& json, const char* key) {
   return json[key].get<std::string>();
 }
 
-void open_exhibit(GatewaySite& site, const std::string& kiosk, const std::string& scenario, const Done& done) {
-  const auto hub = site.hub_of(kiosk);
-  if (!hub) return done(refusal(503, "too many kiosks are in use", "try again later"));
-  const auto sent = std::make_shared<std::uint64_t>(0);
-  const auto look = [hub, scenario, sent]() -> std::optional<HttpAnswer> {
-    hub->use(std::chrono::steady_clock::now());
-    if (hub->link() != client::LinkState::joined || hub->status() == nullptr) return std::nullopt;
-    const auto server = hub->client()->server_status();
-    if (!server || server->scenarios.empty()) return std::nullopt;
-    const std::string wanted = scenario.empty() ? server->scenarios.front() : scenario;
-    if (std::ranges::count(server->scenarios, wanted) == 0)
-      return refusal(404, "the server has no exhibit '" + wanted + "'", "GET /api/server lists them");
-    if (hub->status()->scenario == wanted) return json_answer({{"world", hub->status()->world}, {"scenario", wanted}});
-    if (*sent == 0) *sent = hub->client()->open_exhibit(scenario);
-    if (*sent != 0 && hub->refused(*sent))
-      return refusal(409, "the server refused to open the exhibit", "see the server's log");
-    return std::nullopt;
-  };
-  site.wait_for(look, kOpensWithin,
-                refusal(504, "the kiosk did not go on to the exhibit in time", "check that the server runs"), done);
-}
-
 /// The displays that a request is for, by session.
 std::vector<DisplayStatus> meant_displays(GatewaySite& site, const std::string& kiosk, const std::string& display) {
   std::vector<DisplayStatus> meant = site.watch().displays();
@@ -291,7 +262,7 @@ bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::strin
   if (verb == "open") {
     const auto scenario = stated(json, "scenario");
     if (!scenario) return done(refusal(400, "no scenario is named", R"(send {"scenario":""} for home)")), true;
-    return open_exhibit(site, kiosk, *scenario, done), true;
+    return open_at_kiosk(site, kiosk, *scenario, done), true;
   }
   if (verb == "settings") return change_settings(site, kiosk, json, done), true;
   if (verb != "picture") return false;
@@ -301,7 +272,29 @@ bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::strin
 }  // namespace
 
 void open_at_kiosk(GatewaySite& site, const std::string& kiosk, const std::string& scenario, const Done& done) {
-  open_exhibit(site, kiosk, scenario, done);
+  const auto hub = site.hub_of(kiosk);
+  if (!hub) return done(refusal(503, "too many kiosks are in use", "try again later"));
+  const auto sent = std::make_shared<std::uint64_t>(0);
+  const auto look = [hub, scenario, sent]() -> std::optional<HttpAnswer> {
+    hub->use(std::chrono::steady_clock::now());
+    if (hub->link() != client::LinkState::joined || hub->status() == nullptr) return std::nullopt;
+    const auto server = hub->client()->server_status();
+    if (!server || server->scenarios.empty()) return std::nullopt;
+    const std::string wanted = scenario.empty() ? server->scenarios.front() : scenario;
+    if (std::ranges::count(server->scenarios, wanted) == 0)
+      return refusal(404, "the server has no exhibit '" + wanted + "'", "GET /api/server lists them");
+    if (hub->status()->scenario == wanted) return json_answer({{"world", hub->status()->world}, {"scenario", wanted}});
+    if (*sent == 0) *sent = hub->client()->open_exhibit(scenario);
+    if (*sent != 0 && hub->refused(*sent))
+      return refusal(409, "the server refused to open the exhibit", "see the server's log");
+    return std::nullopt;
+  };
+  site.wait_for(look, kOpensWithin,
+                refusal(504, "the kiosk did not go on to the exhibit in time", "check that the server runs"), done);
+}
+
+HttpAnswer unknown_kiosk(const std::string& kiosk) {
+  return refusal(404, "there is no kiosk '" + kiosk + "'", "GET /api/kiosks lists them");
 }
 
 bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest& request, const Done& done) {

@@ -12,6 +12,7 @@ namespace mechane::gateway {
 [[nodiscard]] bool answer_api_post(GatewaySite& site, const Session& session, const HttpRequest& request,
                                    const Site::Done& done);
 
+[[nodiscard]] HttpAnswer unknown_kiosk(const std::string& kiosk);
 /// Opens an exhibit at a kiosk; "" is home. `done` is told when the kiosk is there, or why not.
 void open_at_kiosk(GatewaySite& site, const std::string& kiosk, const std::string& scenario, const Site::Done& done);
 

@@ -41,13 +41,12 @@ HttpAnswer no_way_in() {
 
 /// For whoever scans a kiosk's code meanwhile; the page comes back by itself.
 HttpAnswer maintenance_page() {
-  HttpAnswer answer = answer_with(
+  HttpAnswer answer = fresh_answer(
       "<!doctype html><html lang=\"el\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
       "<title>Mechane</title><h1>Υπό συντήρηση</h1><p>Αυτό το έκθεμα συντηρείται. Παρακαλούμε ελάτε ξανά αργότερα.</p>"
       "<div lang=\"en\"><h1>Under maintenance</h1><p>This exhibit is being looked after. Please come back "
       "later.</p></div>",
       "text/html; charset=utf-8", 503);
-  answer.headers.emplace_back("Cache-Control", "no-store");
   answer.headers.emplace_back("Refresh", "30");
   return answer;
 }
@@ -239,9 +238,8 @@ void GatewaySite::signed_in(const HttpRequest& request, const std::string& user,
     sessions_.end(cookie);
     return done(refusal(500, "the audit log cannot be written", "see the gateway's log"));
   }
-  HttpAnswer answer = answer_with(of_session(*session).dump(), "application/json");
+  HttpAnswer answer = fresh_answer(of_session(*session).dump());
   answer.headers.emplace_back("Set-Cookie", set_session_cookie(cookie, request.secure));
-  answer.headers.emplace_back("Cache-Control", "no-store");
   done(std::move(answer));
 }
 

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/browser_text.hpp"
 #include "client-sdk/pointer/free_hand.hpp"
 #include "server/base/thread_setup.hpp"
 
@@ -92,11 +93,10 @@ void TrackedHands::release() {
 
 std::string TrackedHands::text() const {
   if (!used_) return {};
-  constexpr std::array<const char*, 4> kLinks{"none", "waiting", "joined", "refused"};
   nlohmann::json out{{"type", "tracked"}, {"hands", nlohmann::json::array()}};
   for (const auto& link : links_)
     out["hands"].push_back(
-        {{"link", kLinks[link ? static_cast<std::size_t>(link->state()) : 0]}, {"holding", link && link->holds()}});
+        {{"link", link_word(link ? link->state() : PointerLinkState::none)}, {"holding", link && link->holds()}});
   return out.dump();
 }
 

@@ -12,18 +12,12 @@ constexpr std::string_view kVisitsPath = "/api/visits";
 constexpr std::string_view kSpreadsheetPath = "/api/visits.csv";
 constexpr std::string_view kRemarksVerb = "/remarks";
 
-HttpAnswer not_kept(HttpAnswer answer) {
-  answer.headers.emplace_back("Cache-Control", "no-store");
-  return answer;
-}
-
 HttpAnswer figures(const VisitsFound& found) {
-  return not_kept(answer_with(visits_json(found), "application/json"));
+  return fresh_answer(visits_json(found));
 }
 
 HttpAnswer spreadsheet(const VisitsFound& found) {
-  HttpAnswer answer =
-      not_kept(answer_with(visits::visits_csv(found.records), "text/csv; charset=utf-8; header=present"));
+  HttpAnswer answer = fresh_answer(visits::visits_csv(found.records), "text/csv; charset=utf-8; header=present");
   answer.headers.emplace_back("Content-Disposition", R"(attachment; filename="visits.csv")");
   return answer;
 }

@@ -22,7 +22,7 @@ Expected<sockaddr_in> target_of(const std::string& to) {
       colon != std::string::npos &&
       std::from_chars(to.data() + colon + 1, to.data() + to.size(), port).ptr == to.data() + to.size();
   if (!has_port || port == 0 || ::inet_pton(AF_INET, to.substr(0, colon).c_str(), &address.sin_addr) != 1)
-    return fail(ErrorCode::invalid_value, "this is no address to send to", to, "write --wake-to 255.255.255.255:9");
+    return fail(ErrorCode::invalid_value, "this is not an address to send to", to, "write --wake-to 255.255.255.255:9");
   address.sin_port = htons(port);
   return address;
 }

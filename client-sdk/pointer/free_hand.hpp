@@ -11,8 +11,9 @@ namespace mechane::pointer {
 
 inline constexpr int kHandFifoPriority = 60;  ///< lower than the devices' loops
 
-/// Joins the kiosk as its last free hand; devices take the first ones. Every 20 ms it asks `goes_on` whether the hand is still wanted; where
-/// it is not, the client has not joined yet. Null: all hands are in use, or there is no network, which is logged. `program`: for logs.
+/// Joins the kiosk as its last free hand; devices take the first ones. Every 20 ms it asks `goes_on` whether the hand is still
+/// wanted; where not, it returns a client that has not joined yet. Null: all hands are in use, or there is no network, which is
+/// logged. `program`: for logs.
 [[nodiscard]] std::unique_ptr<client::Client> take_last_hand(const std::string& kiosk, std::uint32_t domain,
                                                              const std::string& program,
                                                              const std::function<bool()>& goes_on);

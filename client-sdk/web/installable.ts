@@ -58,7 +58,8 @@ export function installable(): Plugin {
       const shell = files.map((file) => `/app/${file.fileName}`).sort();
       const define = { __SHELL__: JSON.stringify(shell), __VERSION__: JSON.stringify(version.digest('hex').slice(0, 12)) };
       const source = readFileSync(near('src/pwa/service_worker.ts'), 'utf8');
-      const { code } = await transformWithEsbuild(source, 'service_worker.ts', { define, minify: true, target: 'es2021', sourcemap: false });
+      const { code } = await transformWithEsbuild(source, 'service_worker.ts',
+        { define, minify: true, target: 'es2021', sourcemap: false });
       emit('sw.js', code);
     },
   };

@@ -109,7 +109,8 @@ def measure_load(context) -> Measured:
 
 def clients(port: int, path: str, pid: int, count: int, seconds: float, stalled: int = 0) -> dict:
     """What so many clients, in a process of their own, saw of one sender."""
-    done = subprocess.run([sys.executable, "-B", str(HERE / "stream_clients.py"), "--port", str(port), "--path", path, "--clients", str(count),
+    done = subprocess.run([sys.executable, "-B", str(HERE / "stream_clients.py"), "--port", str(port), "--path", path,
+                           "--clients", str(count),
                            "--stalled", str(stalled), "--seconds", str(seconds), "--process", str(pid)], capture_output=True, text=True,
                           timeout=seconds + 180, stdin=subprocess.DEVNULL)
     if done.returncode:
@@ -177,7 +178,8 @@ def measure_stream(context) -> Measured:
     for name, rounds in gaps.items():
         result.metrics[f"{name}.gap_ms.p99"] = median([1000 * quantile(one, 0.99) for one in rounds])
         result.curves[f"{name}.gap"] = tail([gap for one in rounds for gap in one])
-    result.metrics["stalled.gap_ratio.p99"] = median([quantile(b, 0.99) / quantile(a, 0.99) for a, b in zip(gaps["steady"], gaps["stalled"])])
+    result.metrics["stalled.gap_ratio.p99"] = median(
+        [quantile(b, 0.99) / quantile(a, 0.99) for a, b in zip(gaps["steady"], gaps["stalled"])])
     result.notes.append("ages are of frames as a client's process reads them, so its own waits for a processor count")
     return result
 
@@ -252,7 +254,8 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
              if f"first_load.{key}" in numbers]
     if loads:
         made.append(out / "gateway-load.svg")
-        bars(made[-1], "From a kiosk's address to the first picture", f"drawn by the processor, median of {LOADS} loads. {machine}", loads, "s")
+        bars(made[-1], "From a kiosk's address to the first picture", f"drawn by the processor, median of {LOADS} loads. {machine}",
+             loads, "s")
     cpu = [[float(count), numbers[f"stream.cpu_pct.{count}"]] for count in CLIENTS if f"stream.cpu_pct.{count}" in numbers]
     if cpu:
         made.append(out / "gateway-stream.svg")

@@ -103,7 +103,8 @@ def start_gateway(programs, options, out):
     """Starts the gateway and prints the addresses for browsers, as it tells them; None, or why there is none."""
     shutil.rmtree(out / "gateway", ignore_errors=True)  # a new one tells the operator's password
     log, started = out / "gateway.log", time.monotonic()
-    programs.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--kiosk", *KIOSKS, "--state", out / "gateway", "--records", out / "records",
+    programs.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--kiosk", *KIOSKS, "--state", out / "gateway",
+                   "--records", out / "records",
                    "--domain", options.domain)
     while "\nready" not in log.read_text(errors="replace"):
         if programs.wait("gateway", 0.1) is not None or time.monotonic() - started > GATEWAY_LIMIT_S:

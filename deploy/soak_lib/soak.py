@@ -80,7 +80,8 @@ class Soak(Programs):
         port, token = re.search(r"^kiosk \S+: http://[^:]+:(\d+)/\S+\?token=(\S+)", log.read_text(), re.MULTILINE).groups()
         with open(self.out / "readers.log", "w") as said:
             self.running["readers"] = subprocess.Popen(
-                [sys.executable, "-B", str(Path(__file__).with_name("readers.py")), "--port", port, "--path", f"/ws/kiosk/{kiosk}?token={token}"],
+                [sys.executable, "-B", str(Path(__file__).with_name("readers.py")), "--port", port,
+                 "--path", f"/ws/kiosk/{kiosk}?token={token}"],
                 stdout=said, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
 
     def kiosk(self, name: str, kiosk: str, guest: bool):

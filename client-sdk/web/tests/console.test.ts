@@ -9,7 +9,9 @@ it('a fault has its place and a remedy, and a healthy museum has none', () => {
   const healthy = serverOf({ server: 's', realtime: true, recordsOk: true, wakeUs: { p99: 40 } });
   const display = { display: 'wall', link: 1, picturesPerS: 30, settings: {} };
   expect(faultsOf(healthy, [kioskOf({ kiosk: 'k', displays: [display] })])).toEqual([]);
-  const ill = serverOf({ server: 's', realtime: false, recordsOk: false, overload: 'too many worlds', wakeUs: { p99: 900 }, inputGapMs: 60 });
+  const ill = serverOf({
+    server: 's', realtime: false, recordsOk: false, overload: 'too many worlds', wakeUs: { p99: 900 }, inputGapMs: 60,
+  });
   const lost = kioskOf({ kiosk: 'k', displays: [{ ...display, link: 3, picturesPerS: 5, missing: ['a.glb'], lastWarning: 'disk' }] });
   const faults = faultsOf(ill, [lost]);
   expect(faults.map((f) => f.where)).toEqual([...Array<string>(5).fill('Server'), ...Array<string>(4).fill('k, wall')]);
@@ -24,7 +26,8 @@ it('hours are sent as they are written, without blanks', () => {
 });
 
 it('reads what is ordered, whatever is missing', () => {
-  const read = operationsOf({ zone: 'EET', hours: { museum: { week: { monday: ['10:00-18:00'] } }, wake: { k: 'm' } }, maintenance: { k: null, j: 5 } });
+  const read = operationsOf({ zone: 'EET', hours: { museum: { week: { monday: ['10:00-18:00'] } }, wake: { k: 'm' } },
+    maintenance: { k: null, j: 5 } });
   expect(read.hours.museum?.week.monday).toEqual(['10:00-18:00']);
   expect(read.hours.museum?.week.sunday).toEqual([]);
   expect(read.maintenance).toEqual({ k: null, j: 5 });

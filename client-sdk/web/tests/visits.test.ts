@@ -1,5 +1,7 @@
 import { expect, it } from 'vitest';
-import { axisEnd, dayColumns, funnel, markColumns, percent, seconds, timeBars, visitsAddress, visitsOf, type StepFigures } from '../src/console/visits';
+import {
+  axisEnd, dayColumns, funnel, markColumns, percent, seconds, timeBars, visitsAddress, visitsOf, type StepFigures,
+} from '../src/console/visits';
 
 const step = (name: string, visits: number, left: number, medianS = 0, p90S = 0): StepFigures => ({
   step: name, visits, done: visits - left, timedOut: 0, skipped: 0, left, hints: 0, time: { count: medianS ? visits : 0, medianS, p90S },
@@ -10,7 +12,9 @@ it('reads figures, whatever is missing', () => {
     days: 7, visits: 1, activities: [{ scenario: 's', activity: 'use', steps: [{ step: 'take', visits: 3, time: { medianS: 4 } }] }],
     recent: [{ visit: 'k7m2', remarks: [{ author: 'eleni', text: 'laughed', at: 0 }] }], exhibitNames: ['s', 3],
   });
-  expect(figures.activities[0]).toMatchObject({ activity: 'use', left: 0, steps: [{ step: 'take', visits: 3, time: { count: 0, medianS: 4 } }] });
+  expect(figures.activities[0]).toMatchObject({
+    activity: 'use', left: 0, steps: [{ step: 'take', visits: 3, time: { count: 0, medianS: 4 } }],
+  });
   expect(figures.recent[0]!.remarks).toEqual([{ when: '', author: 'eleni', text: 'laughed', at: 0 }]);
   expect(figures.exhibitNames).toEqual(['s']);
   expect(() => [visitsOf(null), visitsOf({ recent: 3, perDay: [null] })]).not.toThrow();
@@ -18,7 +22,8 @@ it('reads figures, whatever is missing', () => {
 
 it('an address names only what was chosen, and escapes it', () => {
   expect(visitsAddress('/api/visits', { days: 7, exhibit: '', language: '' })).toBe('/api/visits?days=7');
-  expect(visitsAddress('/api/visits.csv', { days: 30, exhibit: 'a&b', language: 'el' })).toBe('/api/visits.csv?days=30&exhibit=a%26b&language=el');
+  expect(visitsAddress('/api/visits.csv', { days: 30, exhibit: 'a&b', language: 'el' }))
+    .toBe('/api/visits.csv?days=30&exhibit=a%26b&language=el');
 });
 
 it('an axis ends at a round number that holds all', () => {

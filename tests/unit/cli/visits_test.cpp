@@ -234,7 +234,7 @@ TEST_F(VisitsTest, AConsolesRemarksAreInTheReportTheListAndTheSpreadsheet) {
   keep(ten_visits());
   options_.remarks = folder_ / "remarks.json";
   EXPECT_EQ(run(""), 1) << "a name that is spelt wrongly must not look like a book without remarks";
-  EXPECT_THAT(errors_, HasSubstr("there is no file of remarks"));
+  EXPECT_THAT(errors_, HasSubstr("the file of remarks does not exist"));
   auto book = visits::RemarkBook::open(options_.remarks);
   ASSERT_TRUE(book);
   ASSERT_TRUE(book->add("0003-0000-0000", {29'922'360, "laughed, twice", "eleni", 35.2}));

@@ -127,5 +127,6 @@ export const hoursFrom = (written: string): string[] =>
 export function clock(seconds: number, now = new Date()): string {
   const then = new Date(seconds * 1000);
   const time = then.toLocaleTimeString(undefined, { hour: '2-digit', minute: '2-digit', hour12: false });
-  return then.toDateString() === now.toDateString() ? time : `${then.toLocaleDateString(undefined, { day: 'numeric', month: 'short' })}, ${time}`;
+  return then.toDateString() === now.toDateString() ? time
+    : `${then.toLocaleDateString(undefined, { day: 'numeric', month: 'short' })}, ${time}`;
 }

@@ -113,7 +113,8 @@ function questionOf(v: unknown): QuestionFigures {
   const q = fields(v);
   return {
     question: text(q.question), asked: text(q.asked), answers: number(q.answers), atMark: list(q.atMark).map(number), mean: number(q.mean),
-    satisfied: number(q.satisfied), chose: Object.fromEntries(Object.entries(fields(q.chose)).map(([name, count]) => [name, number(count)])),
+    satisfied: number(q.satisfied),
+    chose: Object.fromEntries(Object.entries(fields(q.chose)).map(([name, count]) => [name, number(count)])),
     judged: number(q.judged), right: number(q.right),
   };
 }

@@ -177,7 +177,8 @@ export class KioskSession {
   look(): object {
     const { state, online, malformed, frame, picture } = this;
     const complete = picture.world.complete;
-    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(), headset: this.headset?.look() ?? null, ...picture.report() };
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(),
+      headset: this.headset?.look() ?? null, ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
   placeOf(object: number): { x: number; y: number } | null {

@@ -1,6 +1,7 @@
 // Both eyes' pictures in the same pixels, for red-cyan glasses or a screen of polarised rows: client-sdk/draw/shaders/composite.frag.
 import {
-  HalfFloatType, Mesh, NoBlending, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, type Texture, type WebGLRenderer, WebGLRenderTarget,
+  HalfFloatType, Mesh, NoBlending, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, type Texture, type WebGLRenderer,
+  WebGLRenderTarget,
 } from 'three';
 
 const kVertex = 'varying vec2 place; void main() { place = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }';

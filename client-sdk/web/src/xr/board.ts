@@ -103,7 +103,9 @@ export class Board {
       x += w + 10;
     }
   }
-  private button(context: CanvasRenderingContext2D, button: BoardButton, at: { x: number; y: number; w: number }, pointed: string | null): void {
+  private button(
+    context: CanvasRenderingContext2D, button: BoardButton, at: { x: number; y: number; w: number }, pointed: string | null,
+  ): void {
     context.fillStyle = button.action === pointed ? 'rgb(243 201 90 / 45%)' : 'rgb(255 255 255 / 12%)';
     context.beginPath();
     context.roundRect(at.x, at.y, at.w, kButtonHigh, 16);

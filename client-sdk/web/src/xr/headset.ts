@@ -1,6 +1,8 @@
 // A visitor in a headset: the world at its true size, the visitor's hands to the gateway, and the hands as the server has them. This part
 // of the app is fetched where a browser knows of a headset.
-import { Group, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Raycaster, SphereGeometry, Vector3, type Intersection } from 'three';
+import {
+  Group, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Raycaster, SphereGeometry, Vector3, type Intersection,
+} from 'three';
 import type { Picture } from '../scene/picture';
 import type { Frame } from '../wire/frame';
 import type { Overlay, TrackedState } from '../wire/messages';

@@ -5,7 +5,8 @@ import { Matrix4, Quaternion, Vector3 } from 'three';
 const kFingers = ['index', 'middle', 'ring', 'pinky'] as const;
 export const kJoints = [
   'wrist', 'thumb-metacarpal', 'thumb-phalanx-proximal', 'thumb-phalanx-distal', 'thumb-tip',
-  ...kFingers.flatMap((f) => ['metacarpal', 'phalanx-proximal', 'phalanx-intermediate', 'phalanx-distal', 'tip'].map((j) => `${f}-finger-${j}`)),
+  ...kFingers.flatMap((f) =>
+    ['metacarpal', 'phalanx-proximal', 'phalanx-intermediate', 'phalanx-distal', 'tip'].map((j) => `${f}-finger-${j}`)),
 ] as XRHandJoint[];
 
 export interface SeenHand {

@@ -87,7 +87,8 @@ const parts = {
   },
   async 'what is no page and no file of the app goes past the service worker'() {
     await page.reload();
-    const sw = await page.evaluate(async () => (await Promise.all(['/api/me', '/app/no-such.js'].map((p) => fetch(p)))).map((r) => r.status));
+    const sw = await page.evaluate(async () => (await Promise.all(
+      ['/api/me', '/app/no-such.js'].map((p) => fetch(p)))).map((r) => r.status));
     assert.deepEqual(sw, [401, 404]);
     await gateway.stop();
     const lost = await page.evaluate(() => fetch('/api/me').then(() => 'answered', () => 'lost'));
