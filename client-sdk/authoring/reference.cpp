@@ -143,11 +143,59 @@ as `MACHINE.NAME`, in that unit (`in 1`: a pure number). Values are computed a t
   for a slider or a force; `mechane check` says which part is in which unit. Angles are pure numbers, as in SI: N m/rad is N m. A bare 0
   fits all.
 - Units are made of m, cm, mm, km, l, ml, kg, g, t, s, ms, min, h, Hz, rpm, N, kN, J, kJ, W, kW, Pa, kPa, bar, K, degC, rad, deg, turns
-  and %, with powers like `m2` or `m^2`.
+  and %, with powers like `m2`, `m^2` or `m²`.
 - **There is always a number.** A division by zero and the root of a negative number give 0, and what is beyond 1e30 is 1e30;
   `MACHINE.faults` counts the ticks in which that happened. The branch of an `if` that is not taken does not count.
 - A load is never beyond `limit`. `load` is signed as the joint's position; `resistance` only brakes.
 - A quantity that is read must have the unit of its source. One that reads another machine is a tick late, and so is `last`.
+)";
+
+constexpr std::string_view kWaterRules = R"(
+## Water networks
+
+The lists of `machine.water_network`. Each part is `NAME: KEY VALUE, KEY VALUE`. Numbers are written with their units, and may be computed
+(`area pi * (5 cm)^2`); where FORMULA stands, all of the chapter above may be used. Heights are the world's, so that 0 is its y = 0.
+
+| list | key | what it is |
+|---|---|---|
+| `vessels` | `area 0.02 m2`, `height 0.3 m` | cross section, and height of the walls; both are needed |
+| | `floor 0.5 m` | the height of its floor; not written: 0 |
+| | `start 2 l` | the water in it at the start; not written: none |
+| | `air BELL` | it is closed, and over its water is this air; vessels that name the same air share it. Not written: it is open |
+| | `vent FORMULA` | above 0.5 a vent lets its air in or out, as in `vent step(PLUG.position > 1 cm)` |
+| | `on PAIL.body` | its water weighs on this body, at its origin |
+| `pipes` | `from TANK at 0.5 m` | the vessel that it leaves, and the height of its mouth there |
+| | `to TUB at 0.1 m`, `to air` | where it leads; without a height it ends as high as it begins. Water may fall into an open vessel |
+| | `bore 8 mm` | its width; it is needed |
+| | `discharge 0.8` | share of what Torricelli's law gives: 0.6 (not written) is a hole with a sharp edge, 0.8 a short spout |
+| | `open FORMULA` | a valve: the share that is open, from 0 to 1, as in `open TAP.angle / 1.5 rad`; not written: 1 |
+| | `crest 0.9 m` | a siphon: it starts once water stands over this height, and runs until its mouth in `from` is dry |
+| | `oneway` | a flap keeps water from running back |
+| `feeds` | `into TANK`, `flow FORMULA` | a spring or a pump, as in `flow 2 l/min`; less than 0 is 0 |
+| `floats` | `in TANK`, `of CORK.body` | a body, guided by a slider or a hinge, that this vessel's water lifts |
+| | `area 40 cm2`, `height 3 cm` | of the part that swims, an upright prism |
+| | `bottom -2 cm` | its underside over the body's origin; not written: half of `height` below it |
+
+Quantities can read, and the network's own formulas without `MACHINE.`:
+
+| value | unit | what it is |
+|---|---|---|
+| `MACHINE.VESSEL_level`, `MACHINE.VESSEL_volume` | m, l | how deep its water is, from its floor; how much it is |
+| `MACHINE.VESSEL_pressure` | Pa | of its air, more than the room's |
+| `MACHINE.VESSEL_overflow` | l/s | what runs over its rim |
+| `MACHINE.PIPE_flow`, `MACHINE.FEED_flow` | l/s | what runs through; a pipe's is below 0 while water runs back |
+| `MACHINE.FLOAT_lift` | N | the force on the body |
+
+- Water goes by Torricelli's law, as long as its mouth is under water: never more than stands over the mouth, finds room, or makes the
+  levels equal. What was there at the start and what feeds supplied is always in the vessels, delivered or spilled.
+- **An overflow** is a vessel's rim, or a pipe at the height that its water must not pass. What runs over a rim is gone; to catch it,
+  write a wide pipe just below the rim.
+- **A valve that a float works**: `open (0.3 m - TANK_level) / 1 cm` on a pipe into TANK shuts as TANK fills.
+- Shut-in air keeps its temperature: half the room, twice the pressure. It leaves by its vent alone: a pipe whose mouth is above the water
+  lets no air through.
+- A float is slowed as a body in water is. It does not raise the water that it swims in. A joint that guides it starts where the body stands
+  in the file: best where it swims.
+- Formulas see joints as they are, and the network's values and quantities as they were a tick ago.
 )";
 
 constexpr std::string_view kMetadataIntroduction = R"(
@@ -359,6 +407,7 @@ std::string reference_page() {
       "A machine is the physics behind a joint: water, springs, steam. It is a set in `machines`, as agents are.",
       machines::registry());
   page += kFormulaRules;
+  page += kWaterRules;
   page += "\n## What else quantities can read\n\n| source | unit | what it is |\n|---|---|---|\n";
   page += row({"`JOINT.angle`, `JOINT.position`", "rad or m", "where body2 stands against body1; 0 at the start"});
   page += row({"`JOINT.turns`", "", "the angle in turns"});

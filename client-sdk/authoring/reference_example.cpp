@@ -383,6 +383,33 @@ constexpr Piece kFormulaPieces[] = {
 )"},
 };
 
+constexpr Piece kWaterPieces[] = {
+    {"In `mechane:scenario`, beside `agents`", "mechane:scenario",
+     R"XML(<MetadataSet containerField='value' name='machines'>
+  <MetadataSet containerField='value' name='WATER'>
+    <MetadataString containerField='value' name='type' value='"machine.water_network"'/>
+    <MetadataString containerField='value' name='vessels' value='
+      "TANK: area 0.03 m2, height 40 cm, floor 1.2 m, start 12 l"
+      "CUP: area pi * (6 cm)^2, height 20 cm, floor 0.3 m"'/>
+    <MetadataString containerField='value' name='pipes' value='
+      "SPOUT: from TANK at 1.2 m, to CUP, bore 6 mm, discharge 0.8, open AXLE.angle / 1 turns"
+      "SIPHON: from CUP at 31 cm, to air at 10 cm, bore 12 mm, crest 45 cm"'/>
+    <MetadataString containerField='value' name='feeds' value='"SPRING: into TANK, flow 6 l/min"'/>
+  </MetadataSet>
+</MetadataSet>
+)XML"},
+    {"In `quantities`, names for two of its values", "quantities",
+     R"(<MetadataSet containerField='value' name='water'>
+  <MetadataString containerField='value' name='source' value='"WATER.CUP_level"'/>
+  <MetadataString containerField='value' name='unit' value='"m"'/>
+</MetadataSet>
+<MetadataSet containerField='value' name='siphon'>
+  <MetadataString containerField='value' name='source' value='"WATER.SIPHON_flow"'/>
+  <MetadataString containerField='value' name='unit' value='"l/s"'/>
+</MetadataSet>
+)"},
+};
+
 constexpr Piece kLanguagePieces[] = {
     {"In `mechane:scenario`, in place of the line that names them; the first is shown first", "",
      R"(        <MetadataString containerField='value' name='languages' value='"el" "en"'/>
@@ -461,6 +488,12 @@ constexpr Variation kVariations[] = {
      "a spring\nin the hub pulls the wheel back, for two turns at most, grease brakes it, and what it has done can be "
      "shown.",
      kFormulaPieces},
+    {"A network of water",
+     "Vessels, and what leads from one to the other: see *Water networks* near the end. Here the wheel is the tap of a "
+     "tank,\nquite open after one turn. The cup below fills until its siphon runs, and this empties it at once: the "
+     "cup of "
+     "Tantalus.",
+     kWaterPieces},
     {"Another language", "Each text is written once for each language; `mechane check` names the missing ones.",
      kLanguagePieces},
     {"A sign to another exhibit",

@@ -10,13 +10,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sched.h>
-#include <spawn.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "server/base/assert.hpp"
+#include "server/content/spawn_plan.hpp"
 
 namespace mechane::content {
 namespace {
@@ -37,43 +35,6 @@ class Descriptor {
 
  private:
   int fd_;
-};
-
-/// The attributes and file actions of posix_spawn, freed with the object.
-class SpawnPlan {
- public:
-  explicit SpawnPlan(int output) {
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    posix_spawn_file_actions_addclosefrom_np(&actions, 3);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    int flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP;
-    // A high priority must not pass to the child. Idle priority does: the caller may not have the right to raise it.
-    const int policy = sched_getscheduler(0);
-    if (policy == SCHED_FIFO || policy == SCHED_RR) {
-      const sched_param ordinary{};
-      posix_spawnattr_setschedpolicy(&attributes, SCHED_OTHER);
-      posix_spawnattr_setschedparam(&attributes, &ordinary);
-      flags |= POSIX_SPAWN_SETSCHEDULER;
-    }
-    posix_spawnattr_setflags(&attributes, static_cast<short>(flags));
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-  ~SpawnPlan() {
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-  }
-
-  posix_spawnattr_t attributes{};
-  posix_spawn_file_actions_t actions{};
 };
 
 /// Waits for something to happen on the descriptor; false when the deadline came first.
@@ -123,18 +84,9 @@ Expected<ChildResult> run_child(const std::filesystem::path& program, const std:
   const Descriptor ours(ends[0]);
   Descriptor theirs(ends[1]);
 
-  std::string name = program.string();
-  std::vector<std::string> words = arguments;
-  std::vector<char*> argv{name.data()};
-  for (std::string& word : words)
-    argv.push_back(word.data());
-  argv.push_back(nullptr);
-  pid_t child = -1;
-  const SpawnPlan plan(theirs.get());
-  if (const int e = posix_spawn(&child, name.c_str(), &plan.actions, &plan.attributes, argv.data(), environ); e != 0) {
-    return fail(ErrorCode::failed_process, fmt::format("cannot be started: {}", std::strerror(e)), name,
-                "check the installation");
-  }
+  const auto started = SpawnPlan({.output = theirs.get()}).start(program, arguments);
+  if (!started) return tl::unexpected(started.error());
+  const pid_t child = *started;
   theirs.close();
 
   const auto kill_all = [child] {

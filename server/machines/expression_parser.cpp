@@ -287,7 +287,7 @@ class FormulaParser : private FormulaTokens {
 
   Typed joint(const Token& name) {
     const JointId id = scope_.world.find_joint(std::string(name.text));
-    if (!id) return unknown(name.at, "joint", name.text, names_of(scope_.world.joints));
+    if (!id) return unknown_joint(name);
     const state::JointKind kind = scope_.world.joints[id.index()].kind;
     if (kind == state::JointKind::ball)
       return stop(ErrorCode::invalid_value, name.at,
@@ -307,6 +307,15 @@ class FormulaParser : private FormulaTokens {
     }
     return stop(ErrorCode::unknown_name, token_.at, fmt::format("a joint has no '{}'", what),
                 fmt::format("write {0}.angle, {0}.position or {0}.rate", name.text));
+  }
+
+  /// "TANK.level" for the value TANK_level of this machine is what quantities taught the author.
+  Typed unknown_joint(const Token& name) {
+    const std::string own = fmt::format("{}_{}", name.text, token_.text);
+    if (std::ranges::find(scope_.values, own, &FormulaValue::name) != scope_.values.end())
+      return stop(ErrorCode::unknown_name, name.at, fmt::format("no joint is called '{}'", name.text),
+                  fmt::format("write {}: it is a value of this machine", own));
+    return unknown(name.at, "joint", name.text, names_of(scope_.world.joints));
   }
 
   Typed quantity(std::size_t from) {

@@ -143,6 +143,10 @@ std::string FormulaTokens::unit_text() {
     text += token_.text;
     advance();
     if (is("^") && token_.at == last_end_ && text.back() != '%') text += power_of_unit();
+    if ((is("²") || is("³")) && token_.at == last_end_) {
+      text += token_.text;
+      advance();
+    }
   }
   return text;
 }

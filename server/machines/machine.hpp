@@ -48,6 +48,7 @@ using MachineKind = state::ComponentKind<Machine, Build>;
 [[nodiscard]] const MachineKind& steam_sphere_kind();
 [[nodiscard]] const MachineKind& pebble_counter_kind();
 [[nodiscard]] const MachineKind& formula_kind();
+[[nodiscard]] const MachineKind& water_network_kind();
 
 /// All of them.
 [[nodiscard]] std::span<const MachineKind* const> kinds();

@@ -2,13 +2,14 @@
 
 #include "server/machines/formula.hpp"
 #include "server/machines/machine.hpp"
+#include "server/machines/water_network.hpp"
 
 namespace mechane::machines {
 
 std::span<const MachineKind* const> kinds() {
   static const MachineKind* const kKinds[] = {
-      &screw_pump_kind(), &force_pump_kind(),   &torsion_spring_kind(), &bow_kind(),
-      &projectile_kind(), &steam_sphere_kind(), &pebble_counter_kind(), &formula_kind()};
+      &screw_pump_kind(),   &force_pump_kind(),     &torsion_spring_kind(), &bow_kind(),          &projectile_kind(),
+      &steam_sphere_kind(), &pebble_counter_kind(), &formula_kind(),        &water_network_kind()};
   return kKinds;
 }
 
@@ -19,6 +20,7 @@ std::span<const state::ComponentType> registry() {
 
 std::vector<OwnValue> own_values(const state::ComponentDescription& machine) {
   if (machine.type == formula_kind().type.name) return formula_values(machine);
+  if (machine.type == water_network_kind().type.name) return network_values(machine);
   return {};
 }
 

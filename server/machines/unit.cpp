@@ -67,6 +67,8 @@ constexpr std::pair<std::string_view, Dimension> kNamedUnits[] = {
     {"N s/m", of_powers(0, 1, -1)}, {"N m s", of_powers(2, 1, -1)},
 };
 
+constexpr std::pair<std::string_view, std::string_view> kRaisedDigits[] = {{"²", "2"}, {"³", "3"}};
+
 /// Multiplies or divides `unit` by one of its words.
 bool take_word(std::string_view word, int sign, Unit& unit) {
   const std::optional<Unit> next = word == "1" ? Unit{} : find_unit(word);
@@ -143,6 +145,9 @@ std::optional<Unit> parse_unit(std::string_view text) {
     const std::size_t end = std::min(text.find_first_of(" /"), text.size());
     std::string word(text.substr(0, end));
     if (const std::size_t hat = word.find('^'); hat != std::string::npos) word.erase(hat, 1);
+    for (const auto& [raised, digit] : kRaisedDigits) {
+      if (word.ends_with(raised)) word.replace(word.size() - raised.size(), raised.size(), digit);
+    }
     if (!take_word(word, sign, unit)) return std::nullopt;
     if (end == text.size()) return unit;
     if (text[end] == '/') sign = -1;

@@ -102,6 +102,10 @@ TEST(Reference, VariationsSayWhatTheyPromise) {
   ASSERT_EQ(spring.machines.size(), 1u);
   EXPECT_EQ(machines::own_values(spring.machines[0]).size(), 3u);
   EXPECT_EQ(spring.quantities.back().source, "SPRING.visits");
+  const auto water = read_variation("A network of water");
+  ASSERT_EQ(water.machines.size(), 1u);
+  EXPECT_EQ(machines::own_values(water.machines[0]).size(), 11u);
+  EXPECT_EQ(water.quantities.back().source, "WATER.SIPHON_flow");
   EXPECT_EQ(read_variation("Another language").languages, (std::vector<std::string>{"el", "en"}));
   const auto sign = read_variation("A sign to another exhibit");
   ASSERT_EQ(sign.steps.size(), 2u);

@@ -63,6 +63,8 @@ TEST(FormulaMachine, UnitsAreConverted) {
   EXPECT_NEAR(value_of("20 degC", "K"), 293.15, 1e-12);
   EXPECT_NEAR(value_of("1000 kg/m3 * 9.81 m/s2 * 10 m", "bar"), 0.981, 1e-12);
   EXPECT_NEAR(value_of("6/min", "Hz"), 0.1, 1e-12);
+  EXPECT_NEAR(value_of("2 cm² * 3 m/s² * 1 kg/m³", "g/s^2"), 0.6, 1e-12);
+  EXPECT_NEAR(value_of("2 cm2", "mm²"), 200, 1e-9);
 }
 
 TEST(FormulaMachine, ReadsJointsQuantitiesAndItsOwnValues) {
@@ -300,6 +302,7 @@ RC_GTEST_PROP(FormulaMachine, AnyFormulaIsRefusedWithAPlaceOrStaysFinite, ()) {
                                        "3 m",      "2 s",
                                        "4 N m",    "5 l/s",
                                        "20 degC",  "ARM.position",
+                                       "5 m²",     "³",
                                        "ARM.rate", "ROD.position",
                                        "ROD.rate", "quantity.water",
                                        "pi",       "+",
