@@ -2,7 +2,6 @@
 
 #include "client-sdk/client/clean_text.hpp"
 #include "client-sdk/client/parse.hpp"
-#include "server/base/utf8.hpp"
 #include <mechane/client/client.hpp>
 #include <mechane/proto/convert.hpp>
 
@@ -32,17 +31,6 @@ static_assert(mechane_refusal_moved == static_cast<int>(PoseRefusal::moved));
 static_assert(mechane_refusal_unlike == static_cast<int>(PoseRefusal::unlike));
 static_assert(mechane_refusal_swapped == static_cast<int>(PoseRefusal::swapped));
 static_assert(mechane_refusal_unseen == static_cast<int>(PoseRefusal::unseen));
-
-/// Longer texts are cut, because a status is one line on a technician's screen.
-constexpr std::size_t kMostText = 500;
-
-std::string one_line(const char* text) {
-  std::string line = clean_string(text);
-  for (char& c : line)
-    c = c == '\n' || c == '\t' ? ' ' : c;
-  line.resize(utf8_beginning(line, kMostText).size());
-  return line;
-}
 
 template <class Sequence>
 bool parse_settings(const Sequence& wire, std::vector<DisplaySetting>& out) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -80,12 +81,48 @@ constexpr SettingKind message_setting(std::string_view name) {
 }
 
 constexpr std::array<std::string_view, 3> kSigns{"none", "closed", "maintenance"};
+/// The first part of a web address, without a path.
+bool is_origin(std::string_view text) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!text.starts_with(scheme)) continue;
+    const std::string_view host = text.substr(scheme.size());
+    return !host.empty() && std::ranges::all_of(host, [](unsigned char c) {
+      return std::isalnum(c) != 0 || c == '.' || c == '-' || c == ':' || c == '[' || c == ']';
+    });
+  }
+  return false;
+}
+
+bool is_token(std::string_view text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
+}
+
+constexpr std::size_t kLongestPart = 63;  // a longer address makes a code too fine for a phone
+
+constexpr SettingKind kPhoneAddress{{"phone-address", "http(s)://HOST(:PORT), of 63 characters at most, or nothing"},
+                                    [](const std::string& text, DisplaySettings& into) {
+                                      const bool good = text.empty() || is_origin(text);
+                                      if (!good || text.size() > kLongestPart) return false;
+                                      into.phone_address = text;
+                                      return true;
+                                    },
+                                    [](const DisplaySettings& from) { return from.phone_address; }};
+constexpr SettingKind kPhoneCode{{"phone-code", "letters, digits, - and _, or nothing"},
+                                 [](const std::string& text, DisplaySettings& into) {
+                                   if (!is_token(text) || text.size() > kLongestPart) return false;
+                                   into.phone_code = text;
+                                   return true;
+                                 },
+                                 [](const DisplaySettings& from) {  // who reads a display's status learns no secret
+                                   return std::string(from.phone_code.empty() ? "" : "set");
+                                 }};
+
 constexpr std::array<std::string_view, 2> kLanguages{"el", "en"};
 constexpr std::array<std::string_view, 3> kAsks{"none", "after", "both"};
 constexpr std::array<std::string_view, 5> kQualities{"auto", "high", "medium", "low", "cached"};
 constexpr int kMostSeconds = static_cast<int>(kDay_s);
 
-constexpr std::array<SettingKind, 13> kSettings{{
+constexpr std::array<SettingKind, 15> kSettings{{
     number_setting<&DisplaySettings::volume, 0, 1>("volume", "0 to 1"),
     switch_setting<&DisplaySettings::muted>("mute"),
     word_setting<&DisplaySettings::language, kLanguages>("language", "el, en"),
@@ -99,6 +136,8 @@ constexpr std::array<SettingKind, 13> kSettings{{
     word_setting<&DisplaySettings::sign, kSigns>("sign", "none, closed, maintenance"),
     message_setting<&DisplaySettings::message_el>("message-el"),
     message_setting<&DisplaySettings::message_en>("message-en"),
+    kPhoneAddress,
+    kPhoneCode,
 }};
 
 /// A name or value from outside in quotes, without characters that could drive a terminal.

@@ -26,6 +26,9 @@ std::string step_name(const state::WorldDescription& description, const state::W
   return state.progress.step ? description.steps[state.progress.step.index()].name : std::string("none");
 }
 
+// Long enough to read why the exhibit has gone.
+constexpr Duration kSaidFor = std::chrono::seconds(3);
+
 std::string who(const Session& session) {
   return fmt::format("{} of {} (user {}, {} on {})", session.role == transport::Role::hand ? "hand" : "watcher",
                      session.kiosk, session.user, session.program, session.host);
@@ -75,7 +78,7 @@ std::uint32_t Lobby::users() const {
 void Lobby::take(const transport::News& news, TimePoint now) {
   switch (news.kind) {
     case NewsKind::kiosk_appeared:
-      kiosk_appeared(news.session);
+      kiosk_appeared(news.session, now);
       break;
     case NewsKind::session_appeared:
       log::info(who(news.session) + " appeared");
@@ -102,15 +105,15 @@ Lobby::Entry* Lobby::world_of(const std::string& kiosk) {
   return nullptr;
 }
 
-void Lobby::kiosk_appeared(const Session& session) {
+void Lobby::kiosk_appeared(const Session& session, TimePoint now) {
   if (Entry* entry = world_of(session.kiosk)) return enter(session.kiosk, *entry);  // it was only away for a moment
-  waiting_.push_back({session, {}});
-  serve_waiting();
+  waiting_.push_back({session, {}, {}});
+  serve_waiting(now);
 }
 
-void Lobby::serve_waiting() {
+void Lobby::serve_waiting(TimePoint now) {
   for (auto it = waiting_.begin(); it != waiting_.end();) {
-    std::string why = why_to_wait(*it);
+    std::string why = why_to_wait(*it, now);
     if (why.empty()) {
       const Session session = it->session;
       it = waiting_.erase(it);
@@ -126,7 +129,8 @@ void Lobby::serve_waiting() {
   }
 }
 
-std::string Lobby::why_to_wait(const Waiting& waiting) {
+std::string Lobby::why_to_wait(const Waiting& waiting, TimePoint now) {
+  if (now < waiting.until) return waiting.told;
   const std::string& shared = waiting.session.join_kiosk;
   if (!shared.empty()) {
     return world_of(shared) != nullptr
@@ -235,7 +239,11 @@ std::shared_ptr<const state::WorldDescription> Lobby::next_of(Entry& entry) cons
                       entry.description->id, step.name, step.opens));
     }
   }
-  if (const auto request = entry.running.port->take_request()) next = scenarios_.all()[*request];
+  if (const auto request = entry.running.port->take_request()) {
+    next = scenarios_.find(transport_.scenario(*request));
+    if (next == nullptr)
+      log::warning(fmt::format("{} was retired before a kiosk could open it", transport_.scenario(*request)));
+  }
   return next;
 }
 
@@ -313,8 +321,7 @@ void Lobby::start_records(Entry& entry, record::JournalHeader header) {
 }
 
 void Lobby::start_visits(Entry& entry, bool resumed) {
-  if (visit_writer_ == nullptr) return;
-  entry.visits = std::make_unique<WorldVisits>(*visit_writer_, entry.description, entry.kiosks.front(),
+  entry.visits = std::make_unique<WorldVisits>(visit_writer_, entry.description, entry.kiosks.front(),
                                                entry.running.world->state, resumed);
   entry.running.visits = &entry.visits->feed();
 }
@@ -322,9 +329,8 @@ void Lobby::start_visits(Entry& entry, bool resumed) {
 void Lobby::take_answers() {
   for (auto& [name, entry] : worlds_) {
     const auto language = entry->running.port->take_language();
-    if (language && entry->visits != nullptr) entry->visits->set_language(entry->description->languages[*language]);
+    if (language) entry->visits->set_language(entry->description->languages[*language]);
     while (const auto given = entry->running.port->take_answer()) {
-      if (entry->visits == nullptr) continue;
       if (auto kept = entry->visits->answer(*given); !kept) log::warning(kept.error().to_string());
     }
   }
@@ -368,17 +374,76 @@ void Lobby::kiosk_left(const std::string& kiosk, TimePoint now) {
 
 void Lobby::tidy(TimePoint now) {
   const auto limit = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings_.world_idle_s));
+  leave_former_exhibits(now);
   for (auto it = worlds_.begin(); it != worlds_.end();) {
     Entry& entry = *it->second;
-    if (entry.visits != nullptr) entry.visits->look();
-    if (!entry.idle_since || now - *entry.idle_since < limit) {
+    entry.visits->look();
+    if (!entry.idle_since || (now - *entry.idle_since < limit && is_current(entry))) {
       ++it;
       continue;
     }
     close(entry, record::WorldRecorder::Snapshot::remove);
     it = worlds_.erase(it);
   }
-  serve_waiting();
+  serve_waiting(now);
+}
+
+bool Lobby::is_current(const Entry& entry) const {
+  return scenarios_.find(entry.description->id) == entry.description;
+}
+
+Lobby::WorldCount Lobby::worlds_of(const std::string& exhibit) const {
+  WorldCount count;
+  for (const auto& [name, entry] : worlds_)
+    if (entry->description->id == exhibit) ++(is_current(*entry) ? count.current : count.former);
+  return count;
+}
+
+void Lobby::hurry(const std::string& exhibit) {
+  for (auto& [name, entry] : worlds_)
+    if (entry->description->id == exhibit && !is_current(*entry)) entry->farewell.hurry();
+}
+
+void Lobby::leave_former_exhibits(TimePoint now) {
+  std::vector<Entry*> leaving;  // leaving closes worlds, and may open others
+  for (auto& [name, entry] : worlds_) {
+    if (is_current(*entry) || entry->idle_since) continue;  // tidy() closes those without clients
+    const FarewellFacts facts{
+        .clients = true, .visit = entry->visits->visit_runs(), .forces_zero = entry->running.port->forces_are_zero()};
+    const FarewellStep step = entry->farewell.look(facts, now);
+    if (step == FarewellStep::let_go) entry->running.port->retreat();
+    if (step == FarewellStep::leave) leaving.push_back(entry.get());
+  }
+  for (Entry* entry : leaving)
+    entry->farewell.hurried() ? send_away(*entry, now) : leave_former(*entry);
+}
+
+/// The kiosks go on to the exhibit as it is now, or home where it was retired.
+void Lobby::leave_former(Entry& entry) {
+  auto next = scenarios_.find(entry.description->id);
+  if (auto gone = go_on(entry, next != nullptr ? std::move(next) : scenarios_.first()); !gone) log::error(gone.error());
+}
+
+void Lobby::send_away(Entry& entry, TimePoint now) {
+  const bool stays = scenarios_.find(entry.description->id) != nullptr;
+  const std::string why = stays ? "this exhibit has just been changed; it begins anew in a moment"
+                                : "this exhibit has just been taken out of the museum; another one opens in a moment";
+  const std::vector<std::string> kiosks = std::exchange(entry.kiosks, {});
+  const std::string next = stays ? entry.description->id : std::string();
+  close(entry, record::WorldRecorder::Snapshot::remove);
+  worlds_.erase(worlds_.find(entry.name));
+  for (const std::string& kiosk : kiosks) {
+    Waiting waiting;
+    waiting.session.kiosk = kiosk;
+    waiting.session.scenario = next;
+    waiting.session.was_there = true;
+    if (kiosk != kiosks.front()) waiting.session.join_kiosk = kiosks.front();
+    waiting.told = why;
+    waiting.until = now + kSaidFor;
+    log::info(fmt::format("{}: {}", kiosk, why));
+    transport_.refuse_kiosk(kiosk, why);
+    waiting_.push_back(std::move(waiting));
+  }
 }
 
 void Lobby::close_all() {
@@ -399,10 +464,8 @@ void Lobby::wait_until_left(Entry& entry) {
 
 void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot, const std::string& went_on_to) {
   wait_until_left(entry);
-  if (entry.visits != nullptr) {
-    const bool stops = snapshot == record::WorldRecorder::Snapshot::keep;
-    entry.visits->close(stops ? visits::VisitEnding::cut : visits::VisitEnding::left, went_on_to);
-  }
+  const bool stops = snapshot == record::WorldRecorder::Snapshot::keep;
+  entry.visits->close(stops ? visits::VisitEnding::cut : visits::VisitEnding::left, went_on_to);
   const state::WorldState& state = entry.running.world->state;
   if (entry.running.recorder) {
     // The state of now: the last snapshot is up to a second old.

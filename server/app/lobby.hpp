@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "server/app/farewell.hpp"
 #include "server/app/scenario_store.hpp"
 #include "server/app/settings.hpp"
 #include "server/app/world_loop.hpp"
@@ -34,6 +35,15 @@ class Lobby {
   void take_answers();
   /// Closes worlds that have been idle long enough, and gives worlds to kiosks that wait.
   void tidy(TimePoint now);
+  /// Lets also the visits end that are in progress on a former content of this exhibit. Those whose visits may finish need no call:
+  /// tidy() finds the worlds whose exhibit the store does not have any more.
+  void hurry(const std::string& exhibit);
+  /// How many worlds run this exhibit as the store has it, and how many a former content of it.
+  struct WorldCount {
+    std::uint32_t current = 0;
+    std::uint32_t former = 0;
+  };
+  [[nodiscard]] WorldCount worlds_of(const std::string& exhibit) const;
   /// Takes all worlds from their loops and closes their journals. Snapshots stay for a restart.
   void close_all();
 
@@ -45,7 +55,8 @@ class Lobby {
     std::string name;
     std::shared_ptr<const state::WorldDescription> description;
     RunningWorld running;
-    std::unique_ptr<WorldVisits> visits;  ///< null: visits are not recorded
+    std::unique_ptr<WorldVisits> visits;
+    Farewell farewell;  ///< used once the store has its exhibit no more, or another content of it
     WorldLoop* loop = nullptr;
     std::vector<std::string> kiosks;
     std::optional<TimePoint> idle_since;
@@ -54,14 +65,20 @@ class Lobby {
   /// A kiosk that waits for a world: all are in use, or the kiosk whose world it shares has none yet.
   struct Waiting {
     transport::Session session;
-    std::string told;  ///< why it waits, as it was last told
+    std::string told;   ///< why it waits, as it was last told
+    TimePoint until{};  ///< not before this, because it was told so: see send_away()
   };
 
-  void kiosk_appeared(const transport::Session& session);
+  void kiosk_appeared(const transport::Session& session, TimePoint now);
   /// Gives worlds to waiting kiosks, in the order in which they came. The others are told why they have to wait.
-  void serve_waiting();
+  void serve_waiting(TimePoint now);
   /// Empty where it need not wait any more.
-  [[nodiscard]] std::string why_to_wait(const Waiting& waiting);
+  [[nodiscard]] std::string why_to_wait(const Waiting& waiting, TimePoint now);
+  [[nodiscard]] bool is_current(const Entry& entry) const;
+  void leave_former_exhibits(TimePoint now);
+  void leave_former(Entry& entry);
+  /// Closes the entry, and tells its kiosks why for a while before they get another world.
+  void send_away(Entry& entry, TimePoint now);
   void give_world(const transport::Session& session);
   void enter(const std::string& kiosk, Entry& entry);
   void kiosk_left(const std::string& kiosk, TimePoint now);

@@ -10,19 +10,6 @@
 namespace mechane::app {
 namespace {
 
-Expected<std::unique_ptr<world::World>> world_of(const record::JournalHeader& header,
-                                                 const std::shared_ptr<const state::WorldDescription>& description,
-                                                 const world::WorldConfig& config) {
-  if (header.scenario_hash != description->content_hash) {
-    return fail(ErrorCode::conflict,
-                fmt::format("the journal was recorded with another form of scenario {} (hash {}; this one has {})",
-                            header.scenario_id, header.scenario_hash, description->content_hash),
-                header.world_id, "replay it with the scenario and settings of the day it was recorded");
-  }
-  if (header.snapshot.empty()) return world::World::create(description, config);
-  return world::World::resume(description, config, header.snapshot);
-}
-
 void print_events(const world::World& world, const record::JournalTick& tick) {
   for (const state::Event& event : tick.events) {
     fmt::print("{:>8}  {}\n", event.tick, describe_event(*world.description, event));
@@ -39,20 +26,32 @@ void compare(const record::JournalTick& tick, const world::World& world, state::
 
 }  // namespace
 
-Expected<ReplayResult> replay(record::JournalReader& journal,
-                              const std::shared_ptr<const state::WorldDescription>& description,
-                              world::WorldConfig config, const ReplayOptions& options) {
-  if (journal.header().state_version < state::StateVersion::with_corners) {
+Expected<std::unique_ptr<world::World>> world_of_journal(
+    const record::JournalHeader& header, const std::shared_ptr<const state::WorldDescription>& description,
+    world::WorldConfig config) {
+  if (header.scenario_hash != description->content_hash) {
+    return fail(ErrorCode::conflict,
+                fmt::format("the journal was recorded with another form of scenario {} (hash {}; this one has {})",
+                            header.scenario_id, header.scenario_hash, description->content_hash),
+                header.world_id, "replay it with the scenario and settings of the day it was recorded");
+  }
+  if (header.state_version < state::StateVersion::with_corners) {
     config.force.thin_walls = haptics::ThinWalls::hold_tips;
     config.force.weights = false;
   }
-  if (journal.header().state_version < state::StateVersion::with_sides)
-    config.force.thin_walls = haptics::ThinWalls::let_through;
-  if (journal.header().state_version < state::StateVersion::with_anchors) {
+  if (header.state_version < state::StateVersion::with_sides) config.force.thin_walls = haptics::ThinWalls::let_through;
+  if (header.state_version < state::StateVersion::with_anchors) {
     config.force.friction = haptics::FrictionKind::damps;
     config.force.normals = haptics::NormalKind::of_contacts;
   }
-  auto world = world_of(journal.header(), description, config);
+  if (header.snapshot.empty()) return world::World::create(description, config);
+  return world::World::resume(description, config, header.snapshot);
+}
+
+Expected<ReplayResult> replay(record::JournalReader& journal,
+                              const std::shared_ptr<const state::WorldDescription>& description,
+                              world::WorldConfig config, const ReplayOptions& options) {
+  auto world = world_of_journal(journal.header(), description, std::move(config));
   if (!world) return tl::unexpected(world.error());
   SystemClock clock;
   world::PhaseTimer timer(clock);

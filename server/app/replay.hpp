@@ -31,6 +31,12 @@ struct ReplayResult {
   [[nodiscard]] bool same() const { return !first_difference && hashes_compared > 0 && whole(); }
 };
 
+/// The world in which a journal begins, with the forces on hands of the journal's time (state::StateVersion). Errors: conflict (the journal
+/// was recorded with another form of the scenario), or the snapshot in it cannot be read.
+[[nodiscard]] Expected<std::unique_ptr<world::World>> world_of_journal(
+    const record::JournalHeader& header, const std::shared_ptr<const state::WorldDescription>& description,
+    world::WorldConfig config);
+
 /// With the forces on hands of the journal's time (state::StateVersion). Where bodies moved otherwise then, hashes are not compared.
 /// Errors: conflict (the journal was recorded with another form of the scenario), or the snapshot in it cannot be read.
 [[nodiscard]] Expected<ReplayResult> replay(record::JournalReader& journal,

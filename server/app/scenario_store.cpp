@@ -1,6 +1,7 @@
 #include "server/app/scenario_store.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,6 +59,15 @@ Expected<std::shared_ptr<const state::WorldDescription>> load_one(const std::fil
 
 }  // namespace
 
+Expected<std::shared_ptr<const state::WorldDescription>> load_scenario(const std::filesystem::path& file,
+                                                                       const Settings& settings) {
+  content::ObjectStore objects(settings.cache);
+  StoreLoader loader(objects);
+  const auto files = find_scenarios(std::span(&file, 1), settings.catalogue);  // for its warnings
+  if (!files) return tl::unexpected(files.error());
+  return load_one(file, loader, settings.stiffness_scale);
+}
+
 Expected<ScenarioStore> ScenarioStore::load(const Settings& settings) {
   ScenarioStore result;
   content::ObjectStore objects(settings.cache);
@@ -71,7 +81,7 @@ Expected<ScenarioStore> ScenarioStore::load(const Settings& settings) {
       return fail(ErrorCode::duplicate, fmt::format("two scenarios have the id '{}'", (*description)->id),
                   file.string(), "give one of them another id");
     }
-    result.scenarios_.push_back(std::move(*description));
+    result.put(std::move(*description), file);
   }
   auto hand = haptics::HandModel::create(settings.hand);
   if (!hand) return tl::unexpected(hand.error());
@@ -83,6 +93,32 @@ Expected<ScenarioStore> ScenarioStore::load(const Settings& settings) {
 std::shared_ptr<const state::WorldDescription> ScenarioStore::find(const std::string& id) const {
   const auto it = std::find_if(scenarios_.begin(), scenarios_.end(), [&](const auto& s) { return s->id == id; });
   return it == scenarios_.end() ? nullptr : *it;
+}
+
+std::filesystem::path ScenarioStore::file_of(const std::string& id) const {
+  const auto found = files_.find(id);
+  return found == files_.end() ? std::filesystem::path() : found->second;
+}
+
+std::vector<std::string> ScenarioStore::ids() const {
+  std::vector<std::string> ids(scenarios_.size());
+  std::ranges::transform(scenarios_, ids.begin(), [](const auto& s) { return s->id; });
+  return ids;
+}
+
+void ScenarioStore::put(std::shared_ptr<const state::WorldDescription> scenario, std::filesystem::path file) {
+  files_[scenario->id] = std::move(file);
+  const auto it = std::ranges::find(scenarios_, scenario->id, [](const auto& s) { return s->id; });
+  if (it == scenarios_.end()) {
+    scenarios_.push_back(std::move(scenario));
+  } else {
+    *it = std::move(scenario);
+  }
+}
+
+void ScenarioStore::retire(const std::string& id) {
+  std::erase_if(scenarios_, [&](const auto& s) { return s->id == id && s != scenarios_.front(); });
+  if (find(id) == nullptr) files_.erase(id);
 }
 
 }  // namespace mechane::app

@@ -5,9 +5,13 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include "server/app/exhibit_changes.hpp"
+#include "server/app/exhibit_desk.hpp"
 #include "server/app/lobby.hpp"
 #include "server/app/overload.hpp"
+#include "server/app/pace_orders.hpp"
 #include "server/app/report.hpp"
 #include "server/app/scenario_store.hpp"
 #include "server/app/version.hpp"
@@ -35,13 +39,14 @@ LoopConfig loop_config(const Settings& settings, std::size_t index) {
   return config;
 }
 
-transport::TransportConfig transport_config(const Settings& settings, const ScenarioStore& scenarios) {
+transport::TransportConfig transport_config(const Settings& settings, const ScenarioStore& scenarios,
+                                            const std::optional<proto::ExhibitKey>& exhibit_key) {
   transport::TransportConfig config;
   config.server = settings.name;
   config.version = kVersion;
-  for (const auto& scenario : scenarios.all())
-    config.scenarios.push_back(scenario->id);
+  config.scenarios = scenarios.ids();
   config.domain = settings.domain;
+  config.exhibit_key = exhibit_key;
   // Above the loop's priority: a force that is ready is sent before the next tick begins.
   config.fifo_priority = settings.fifo_priority > 0 ? settings.fifo_priority + 1 : 0;
   return config;
@@ -54,18 +59,25 @@ class Server::Impl {
   explicit Impl(const Settings& settings) : settings_(settings) {}
 
   Expected<void> start();
+  void bring_exhibits_back();
   Expected<void> start_records();
+  [[nodiscard]] Expected<std::optional<proto::ExhibitKey>> exhibit_key() const;
   int run(StopSignals& signals);
 
  private:
   [[nodiscard]] bool loops_run() const;
   void say_ready();
   void look(TimePoint now);
+  /// False: whoever gave orders has gone.
+  [[nodiscard]] bool follow_orders();
+  void follow(const std::string& line);
   void say_status();
   void watch_load(const transport::LoopFigures& loops);
 
   Settings settings_;
   SystemClock main_clock_;
+  // Ends last: it may have to read a scenario to its end, and by then all journals are closed.
+  Worker reader_{"exhibits"};
   std::optional<ScenarioStore> scenarios_;
   std::unique_ptr<record::Recorder> recorder_;
   std::unique_ptr<visits::VisitWriter> visit_writer_;
@@ -73,7 +85,10 @@ class Server::Impl {
   std::vector<std::unique_ptr<SystemClock>> clocks_;
   std::vector<std::unique_ptr<WorldLoop>> loops_;
   std::unique_ptr<Lobby> lobby_;
+  std::unique_ptr<ExhibitDesk> desk_;
   OverloadWatch overload_;
+  OrderLines orders_{STDIN_FILENO};
+  double pace_ = 1;  ///< the last that was asked for
 };
 
 Expected<void> Server::Impl::start() {
@@ -84,8 +99,12 @@ Expected<void> Server::Impl::start() {
   }();
   if (!scenarios) return tl::unexpected(scenarios.error());
   scenarios_ = std::move(*scenarios);
+  std::vector<std::string> of_settings = scenarios_->ids();
+  bring_exhibits_back();
   if (auto started = start_records(); !started) return started;
-  auto transport = transport::ServerTransport::start(transport_config(settings_, *scenarios_));
+  auto key = exhibit_key();
+  if (!key) return tl::unexpected(key.error());
+  auto transport = transport::ServerTransport::start(transport_config(settings_, *scenarios_, *key));
   if (!transport) return tl::unexpected(transport.error());
   transport_ = std::move(*transport);
   for (std::size_t i = 0; i < settings_.loop_threads; ++i) {
@@ -99,7 +118,28 @@ Expected<void> Server::Impl::start() {
         "doctor'");
   }
   lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), visit_writer_.get(), loops_);
+  desk_ = std::make_unique<ExhibitDesk>(settings_, std::move(of_settings), *scenarios_, *transport_, *lobby_, reader_);
   return {};
+}
+
+/// As they were before the restart. Where nobody can tell, the museum opens with those of the settings.
+void Server::Impl::bring_exhibits_back() {
+  const std::filesystem::path file = settings_.exhibit_changes_file();
+  if (file.empty()) return;
+  const StopAtOnce while_building;
+  const auto changes = read_changes(file);
+  if (!changes) return log::warning(changes.error().to_string());
+  make_again(*changes, settings_, *scenarios_);
+}
+
+/// None where the settings name no file: then exhibits cannot be changed.
+Expected<std::optional<proto::ExhibitKey>> Server::Impl::exhibit_key() const {
+  const std::filesystem::path file = settings_.exhibit_key_file();
+  if (file.empty()) return std::nullopt;
+  auto key = proto::ExhibitKey::read_or_make(file);
+  if (key) return *key;
+  log::warning(key.error().to_string() + "; until then, exhibits cannot be changed");  // the museum opens all the same
+  return std::nullopt;
 }
 
 Expected<void> Server::Impl::start_records() {
@@ -133,6 +173,7 @@ int Server::Impl::run(StopSignals& signals) {
       say_ready();
     }
     look(now);
+    if (settings_.paced && !follow_orders()) break;
     if (looks % kLooksPerStatus == 0) say_status();
     if (looks % kLooksPerWatchdog == 0) notify_systemd("WATCHDOG=1");
     if (settings_.run_for_s > 0 && std::chrono::duration<double>(now - began).count() >= settings_.run_for_s) break;
@@ -164,7 +205,25 @@ void Server::Impl::look(TimePoint now) {
     lobby_->take(news, now);
   lobby_->take_answers();
   lobby_->follow_signs();
+  desk_->look(now);
   lobby_->tidy(now);
+}
+
+bool Server::Impl::follow_orders() {
+  for (const std::string& line : orders_.take())
+    follow(line);
+  if (orders_.ended()) log::info("standard input has ended, and with it this server");
+  return !orders_.ended();
+}
+
+void Server::Impl::follow(const std::string& line) {
+  const auto order = parse_pace_order(line);
+  if (!order) return log::warning(order.error().to_string());
+  if (order->ticks > 0 && pace_ != 0)
+    return log::warning("'" + line + "' does nothing: time runs; write 'pace 0' first");
+  if (order->ticks == 0) pace_ = order->pace;
+  for (const auto& loop : loops_)
+    if (!loop->order(*order)) log::warning("'" + line + "' is lost: too many orders at a time");
 }
 
 void Server::Impl::say_status() {
@@ -179,6 +238,7 @@ void Server::Impl::say_status() {
   status.input_gap_ms = to_seconds(overload_.longest_gap()) * 1e3;
   status.overload = overload_.words();
   transport_->publish_server_status(status);
+  desk_->publish(main_clock_.now());
 }
 
 void Server::Impl::watch_load(const transport::LoopFigures& loops) {

@@ -41,6 +41,8 @@ class TomlReader {
     take("visits_limit_mb", settings.visits_limit_mb);
     take_path("cache", settings.cache);
     take_path("catalogue", settings.catalogue);
+    take_path("exhibits", settings.exhibits);
+    take_path("exhibit_key", settings.exhibit_key);
     take("fifo_priority", settings.fifo_priority);
     take("world_idle_s", settings.world_idle_s);
     take("resume_within_s", settings.resume_within_s);
@@ -187,6 +189,12 @@ Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::o
       "X3D file of an exhibit, or its id in the catalogue; may be given several times; kiosks begin in the first");
   app.add_option("--catalogue", s.catalogue,
                  "catalogue (mechane content) in which ids are looked up, and with which files are compared");
+  app.add_option("--exhibits", s.exhibits,
+                 "folder from which mechane exhibits loads by name; without: the one around the first scenario's");
+  app.add_option(
+      "--exhibit-key", s.exhibit_key,
+      "key file of those who may change exhibits, made where it is missing; a name without folder lies in the "
+      "folder of records; 'none': exhibits cannot be changed");
   app.add_option("--name", s.name, "name on the wire and in logs");
   app.add_option("--worlds", s.worlds, "how many worlds may run at once");
   app.add_option("--loop-threads", s.loop_threads, "threads that the worlds are spread over");
@@ -214,6 +222,9 @@ Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::o
                  "factor on the stiffness of all that is touched; 0 turns touch off");
   app.add_flag("--paper-force", paper,
                "average the force over the whole hand, as the published system did, for comparison");
+  app.add_flag(
+      "--paced", s.paced,
+      "read orders from standard input, 'pace X' (0 to 1 of real time) and 'step N' (ticks), and stop when it ends");
   app.add_flag("--verbose", s.verbose, "log details");
   try {
     app.parse(argc, argv);
@@ -252,6 +263,16 @@ std::filesystem::path Settings::visits_file() const {
   return records.empty() ? std::filesystem::path() : records / visits;
 }
 
+std::filesystem::path Settings::exhibit_key_file() const {
+  if (exhibit_key.empty() || exhibit_key == "none") return {};
+  if (exhibit_key.has_parent_path()) return exhibit_key;
+  return records.empty() ? std::filesystem::path() : records / exhibit_key;
+}
+
+std::filesystem::path Settings::exhibit_changes_file() const {
+  return records.empty() ? std::filesystem::path() : records / "exhibits.json";
+}
+
 std::string to_string(const Settings& s) {
   std::string scenarios;
   for (const auto& path : s.scenarios)
@@ -259,13 +280,16 @@ std::string to_string(const Settings& s) {
   return fmt::format(
       "name = {}\nscenarios = {}\nworlds = {}\nloop_threads = {}\ndomain = {}\nrecords = {}\nrecords_limit_mb = {}\n"
       "visits = {}\nvisits_keep_days = {}\nvisits_limit_mb = {}\n"
-      "cache = {}\ncatalogue = {}\nfifo_priority = {}\nfirst_cpu = {}\nworld_idle_s = {}\nresume_within_s = "
+      "cache = {}\ncatalogue = {}\nexhibits = {}\nexhibit_key = {}\nfifo_priority = {}\nfirst_cpu = {}\nworld_idle_s = "
+      "{}\nresume_within_s = "
       "{}\nforce.mode = {}\n"
       "force.max_force_n = {}\nforce.stiffness_scale = {}",
       s.name, scenarios, s.worlds, s.loop_threads, s.domain, s.records.empty() ? "none" : s.records.string(),
       s.records_limit_mb, s.visits_file().empty() ? "none" : s.visits_file().string(), s.visits_keep_days,
       s.visits_limit_mb, s.cache.empty() ? "the user's cache folder" : s.cache.string(),
-      s.catalogue.empty() ? "none" : s.catalogue.string(), s.fifo_priority,
+      s.catalogue.empty() ? "none" : s.catalogue.string(),
+      s.exhibits.empty() ? "around the first scenario's folder" : s.exhibits.string(),
+      s.exhibit_key_file().empty() ? "none" : s.exhibit_key_file().string(), s.fifo_priority,
       s.first_cpu ? std::to_string(*s.first_cpu) : "any", s.world_idle_s, s.resume_within_s,
       s.force.mode == haptics::ForceMode::paper ? "paper" : "continuous", s.force.governor.max_force_n,
       s.stiffness_scale);

@@ -17,7 +17,11 @@ struct Settings {
   std::string name = "server-1";  ///< on the wire and in logs
   /// X3D files, or ids in the catalogue. Kiosks that ask for no other begin in the first.
   std::vector<std::filesystem::path> scenarios;
-  std::filesystem::path catalogue;                ///< of content, see mechane content; empty: none
+  std::filesystem::path catalogue;  ///< of content, see mechane content; empty: none
+  /// Folder from which exhibits are loaded by name while the server runs; empty: that in which the first scenario's folder lies.
+  std::filesystem::path exhibits;
+  std::filesystem::path exhibit_key =
+      "exhibits.key";                             ///< as `visits`: its folder is that of records; "none": no changes
   std::uint32_t worlds = 6;                       ///< at most so many at once, 1 .. 64
   std::uint32_t loop_threads = 1;                 ///< 1 .. 32
   std::uint32_t domain = 0;                       ///< DDS domain, 0 .. 230
@@ -34,11 +38,16 @@ struct Settings {
   double resume_within_s = 600;          ///< a restarted server continues from snapshots that are not older
   double run_for_s = 0;                  ///< the server stops after this long; 0: it runs until it is told to stop
   std::filesystem::path report;          ///< JSON of counters and tick times, written at the stop; empty: none
+  bool paced = false;  ///< orders about the pace of time come from standard input; the server ends with it
   bool verbose = false;
   haptics::HandSize hand;
   haptics::ForceConfig force;
   /// The file of the records of visits, with its folder; empty: visits are not recorded. Without `records`, `visits` needs a folder.
   [[nodiscard]] std::filesystem::path visits_file() const;
+  /// The file of the key for changes of exhibits, with its folder; empty: the server takes no changes.
+  [[nodiscard]] std::filesystem::path exhibit_key_file() const;
+  /// Where loaded and retired exhibits are kept for the next start; empty without `records`: they are forgotten.
+  [[nodiscard]] std::filesystem::path exhibit_changes_file() const;
   double stiffness_scale = 1;  ///< factor on every material and grasp, 0 .. 10; 0: nothing can be felt or moved
 };
 

@@ -67,14 +67,31 @@ bool WorldLoop::add(RunningWorld& world) {
 }
 
 void WorldLoop::tick(const realtime::TickTiming& timing) noexcept {
-  const Duration before = clock_.thread_cpu_time();
   take_new_worlds();
+  const PacedTick paced = pace_.next(hands_at_rest());
   for (RunningWorld* running : worlds_)
-    feel(*running, timing.woke);
+    running->port->let_through(paced.passage);
+  if (paced.runs) {
+    run(timing.woke);
+  } else {
+    for (RunningWorld* running : worlds_)
+      running->port->hold(running->world->state, timing.woke, running->shown.out_W());
+  }
+  give_back_leaving();
+}
+
+bool WorldLoop::hands_at_rest() const noexcept {
+  return std::all_of(worlds_.begin(), worlds_.end(),
+                     [](const RunningWorld* running) { return running->port->forces_are_zero(); });
+}
+
+void WorldLoop::run(TimePoint now) noexcept {
+  const Duration before = clock_.thread_cpu_time();
+  for (RunningWorld* running : worlds_)
+    feel(*running, now);
   for (RunningWorld* running : worlds_)
     move(*running);
   if (!worlds_.empty()) busy_time_.record(clock_.thread_cpu_time() - before);
-  give_back_leaving();
 }
 
 void WorldLoop::take_new_worlds() noexcept {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "server/app/tick_pace.hpp"
 #include "server/haptics/shown_hands.hpp"
 #include "server/realtime/histogram.hpp"
 #include "server/realtime/periodic_thread.hpp"
@@ -52,6 +53,8 @@ class WorldLoop {
 
   /// Gives a world to the loop, which takes it at its next tick. False when the loop is full. The world must live until `left` is set.
   [[nodiscard]] bool add(RunningWorld& world);
+  /// Asks for another pace of its worlds, or for single ticks. False: too many orders at a time.
+  [[nodiscard]] bool order(const PaceOrder& order) { return pace_.order(order); }
   [[nodiscard]] std::size_t size() const { return assigned_; }
   /// To be called when a world of this loop has left.
   void forget_one() { --assigned_; }
@@ -65,6 +68,8 @@ class WorldLoop {
   void tick(const realtime::TickTiming& timing) noexcept;
   void take_new_worlds() noexcept;
   void give_back_leaving() noexcept;
+  [[nodiscard]] bool hands_at_rest() const noexcept;
+  void run(TimePoint now) noexcept;
   void feel(RunningWorld& running, TimePoint now) noexcept;
   void move(RunningWorld& running) noexcept;
   void record_phases(std::size_t first, std::size_t end) noexcept;
@@ -72,6 +77,7 @@ class WorldLoop {
   std::size_t assigned_ = 0;  // for the main thread
   std::size_t max_worlds_;
   realtime::Ring<RunningWorld*> arriving_;
+  TickPace pace_;
   std::vector<RunningWorld*> worlds_;  // for the loop; reserved, so that a tick allocates nothing
   Clock& clock_;
   world::PhaseTimer timer_;

@@ -4,11 +4,12 @@
 
 namespace mechane::app {
 
-WorldVisits::WorldVisits(visits::VisitWriter& writer, const std::shared_ptr<const state::WorldDescription>& description,
+WorldVisits::WorldVisits(visits::VisitWriter* writer, const std::shared_ptr<const state::WorldDescription>& description,
                          const std::string& kiosk, const state::WorldState& state, bool resumed)
     : writer_(writer),
-      observer_(description, kiosk, state.progress, state.tick,
-                resumed ? writer.take_unfinished(kiosk, description->content_hash) : std::nullopt) {}
+      observer_(
+          description, kiosk, state.progress, state.tick,
+          resumed && writer != nullptr ? writer->take_unfinished(kiosk, description->content_hash) : std::nullopt) {}
 
 void WorldVisits::look() {
   const std::uint64_t tick = feed_.tick();  // read before the notes, so that all notes of this tick are in the queue
@@ -35,7 +36,7 @@ void WorldVisits::close(visits::VisitEnding why, const std::string& went_on_to) 
 
 void WorldVisits::hand_over() {
   for (visits::VisitRecord& record : observer_.take_changed())
-    writer_.put(std::move(record));
+    if (writer_ != nullptr) writer_->put(std::move(record));
 }
 
 }  // namespace mechane::app

@@ -26,6 +26,16 @@ class VectorSink {
   std::vector<std::byte>& out_;
 };
 
+/// Appends to a string of bytes.
+class StringSink {
+ public:
+  explicit StringSink(std::string& out) : out_(out) {}
+  void append(const std::byte* data, std::size_t size) { out_.append(reinterpret_cast<const char*>(data), size); }
+
+ private:
+  std::string& out_;
+};
+
 /// Fills a span. The caller makes it large enough; writing past its end is our own bug.
 class SpanSink {
  public:

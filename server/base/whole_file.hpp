@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/base/error.hpp"
@@ -42,5 +43,10 @@ enum class WholeFile : std::uint8_t {
 /// All bytes of a file. Errors: not_found, too_large (more than `most_bytes`), io_failure (a folder, no right to read it, a failing disk).
 /// Any thread but those of loops.
 [[nodiscard]] Expected<std::vector<std::byte>> read_whole(const std::filesystem::path& file, std::uintmax_t most_bytes);
+
+/// Bytes as the text that they are. It looks into them.
+[[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 }  // namespace mechane

@@ -16,9 +16,12 @@ constexpr Duration kStatusEvery = std::chrono::milliseconds(100);
 
 MuseumPublisher::MuseumPublisher(proto::Writer<proto::ServerStatus> status_writer,
                                  proto::Writer<proto::WorldAssignment> assignment_writer,
-                                 const proto::ServerStatus& status)
-    : status_(status), status_writer_(std::move(status_writer)), assignment_writer_(std::move(assignment_writer)) {
-  status_.overload = proto::look_into(overload_);
+                                 proto::Writer<proto::ExhibitStatus> exhibit_writer, const proto::ServerStatus& status)
+    : status_(status),
+      status_writer_(std::move(status_writer)),
+      assignment_writer_(std::move(assignment_writer)),
+      exhibit_writer_(std::move(exhibit_writer)) {
+  point_status_at_texts();
   thread_ = std::thread([this] { run(); });
 }
 
@@ -35,6 +38,7 @@ void MuseumPublisher::run() {
     const std::lock_guard lock(mutex_);
     write_status(std::chrono::steady_clock::now());
     write_assignments();
+    write_exhibits();
     for (const auto& world : worlds_) {
       const std::uint64_t before = world->writes_failed();
       world->write();
@@ -105,7 +109,42 @@ void MuseumPublisher::set_status(const proto::ServerStatus& status, const std::s
   status_ = status;
   status_.seq = sequence;
   overload_ = overload;
+  point_status_at_texts();
+}
+
+void MuseumPublisher::point_status_at_texts() {
   status_.overload = proto::look_into(overload_);
+  proto::look_into(status_.scenarios, scenario_pointers_);
+}
+
+void MuseumPublisher::set_scenarios(std::vector<std::string> scenarios) {
+  const std::lock_guard lock(mutex_);
+  scenarios_ = std::move(scenarios);
+  scenario_pointers_ = proto::pointers_to(scenarios_);
+  point_status_at_texts();
+}
+
+void MuseumPublisher::set_exhibits(const ExhibitStatusData& exhibits) {
+  {
+    const std::lock_guard lock(mutex_);
+    exhibits_ = exhibits;
+  }
+  wakeup_.signal();
+}
+
+void MuseumPublisher::write_exhibits() {
+  if (!exhibits_) return;
+  WireExhibits exhibits(*exhibits_);
+  proto::ExhibitStatus& wire = exhibits.wire();
+  std::copy(std::begin(status_.server), std::end(status_.server), wire.server);
+  wire.incarnation = status_.incarnation;
+  wire.seq = ++exhibit_sequence_;
+  wire.sent_ns = to_ns(std::chrono::steady_clock::now());
+  if (!exhibit_writer_.write(wire)) {
+    failed_.fetch_add(1, std::memory_order_relaxed);
+    return;  // again in the next round
+  }
+  exhibits_.reset();
 }
 
 }  // namespace mechane::transport

@@ -23,6 +23,7 @@ constexpr Duration kReportEvery = std::chrono::seconds(1);
 // How often a lasting fault of other programs is logged: it must not fill the log.
 constexpr Duration kSayAgainAfter = std::chrono::minutes(1);
 constexpr Duration kNextOtherServerAfter = std::chrono::seconds(10);
+constexpr std::size_t kMostRefusalsTold = 8;
 constexpr std::size_t kMostOthers = 64;   // other servers that are remembered
 constexpr std::size_t kMostLeftOut = 64;  // kiosks that a full server tells why they get no world
 
@@ -33,9 +34,9 @@ class ServerTransport::Impl {
   Impl(const TransportConfig& config, proto::Participant participant)
       : server(config.server),
         version(config.version),
-        scenarios(config.scenarios),
         host(proto::host_name()),
         incarnation(proto::random_id()),
+        gate(config.exhibit_key, config.server, incarnation),
         participant_(std::move(participant)),
         fifo_priority_(config.fifo_priority),
         haptic_(config.fifo_priority, config.cpu) {}
@@ -48,20 +49,22 @@ class ServerTransport::Impl {
   void close_world(WorldPort& port);
   void assign(const std::string& kiosk, const std::string& world, const std::string& trouble);
   [[nodiscard]] proto::ServerStatus wire_status(const ServerStatusData& data);
+  void set_scenarios(const std::vector<std::string>& ids);
+  [[nodiscard]] std::vector<ExhibitOrder> take_exhibit_orders(TimePoint now);
+  void publish_exhibits(ExhibitStatusData data);
 
   const std::string server;
   const std::string version;
-  const std::vector<std::string> scenarios;
   const std::string host;
   const std::uint64_t incarnation;
+  ScenarioNames scenarios;
+  ExhibitGate gate;
   RejectCounters rejects;
   SessionTable table;
   [[nodiscard]] HapticPublisher& haptic() { return haptic_; }
   [[nodiscard]] MuseumPublisher& museum() { return *museum_; }
 
  private:
-  std::vector<char*> scenario_names_ = proto::pointers_to(scenarios);  // for the wire
-
   struct Kiosk {
     std::shared_ptr<KioskLink> link;
     Assignment assignment;
@@ -104,6 +107,12 @@ class ServerTransport::Impl {
   TimePoint next_warning_of_version_{};
   proto::Reader<proto::ServerStatus> server_status_;
   proto::Reader<proto::KioskStatus> kiosk_status_;
+  // Requests about exhibits that had no right seal: they must not fill the log.
+  std::uint64_t exhibit_requests_refused_ = 0;
+  TimePoint next_warning_of_refused_{};
+  std::vector<ExhibitAnswer> exhibit_refusals_;  // of sealed requests that were not taken, for the next status
+  std::optional<ExhibitStatusData> told_exhibits_;
+  proto::Reader<proto::ExhibitRequest> exhibit_requests_;
 };
 
 ServerTransport::Impl::~Impl() {
@@ -124,8 +133,13 @@ Expected<void> ServerTransport::Impl::open_endpoints() {
   auto others = proto::Reader<proto::ServerStatus>::create(participant_, "");
   if (!others) return tl::unexpected<Error>(others.error());
   server_status_ = std::move(*others);
+  auto exhibit_writer = proto::Writer<proto::ExhibitStatus>::create(participant_, "");
+  if (!exhibit_writer) return tl::unexpected<Error>(exhibit_writer.error());
+  auto requests = proto::Reader<proto::ExhibitRequest>::create(participant_, "");
+  if (!requests) return tl::unexpected<Error>(requests.error());
+  exhibit_requests_ = std::move(*requests);
   museum_ = std::make_unique<MuseumPublisher>(std::move(*status_writer), std::move(*assignment_writer),
-                                              wire_status(ServerStatusData{}));
+                                              std::move(*exhibit_writer), wire_status(ServerStatusData{}));
   return {};
 }
 
@@ -376,7 +390,6 @@ proto::ServerStatus ServerTransport::Impl::wire_status(const ServerStatusData& d
   wire.incarnation = incarnation;
   wire.version = proto::look_into(version);
   wire.host = proto::look_into(host);
-  proto::look_into(wire.scenarios, scenario_names_);
   wire.worlds = data.worlds;
   wire.worlds_limit = data.worlds_limit;
   wire.users = data.users;
@@ -398,12 +411,51 @@ proto::ServerStatus ServerTransport::Impl::wire_status(const ServerStatusData& d
   return wire;
 }
 
+void ServerTransport::Impl::set_scenarios(const std::vector<std::string>& ids) {
+  scenarios.set(ids);
+  museum_->set_scenarios(ids);
+}
+
+std::vector<ExhibitOrder> ServerTransport::Impl::take_exhibit_orders(TimePoint now) {
+  std::vector<ExhibitOrder> orders;
+  exhibit_requests_.view().take_each([&](const proto::ExhibitRequest& wire, const proto::SampleInfo& info) {
+    if (!info.valid) return;
+    ExhibitOrder order;
+    const ExhibitFault fault = gate.take(wire, order);
+    if (fault == ExhibitFault::none) {
+      orders.push_back(std::move(order));
+      return;
+    }
+    if (order.id != 0) {
+      if (exhibit_refusals_.size() >= kMostRefusalsTold) exhibit_refusals_.erase(exhibit_refusals_.begin());
+      exhibit_refusals_.push_back({order.id, std::string(words_of(fault)), "", "ask again"});
+    }
+    ++exhibit_requests_refused_;
+    if (now < next_warning_of_refused_) return;
+    next_warning_of_refused_ = now + kReportEvery;
+    log::warning(fmt::format("a request to change exhibits was refused: {} ({} refused since the server's start)",
+                             words_of(fault), exhibit_requests_refused_));
+  });
+  return orders;
+}
+
+void ServerTransport::Impl::publish_exhibits(ExhibitStatusData data) {
+  data.changeable = gate.is_open();
+  data.key_mark = gate.key_mark();
+  data.counter = gate.counter();
+  data.answers.insert(data.answers.end(), exhibit_refusals_.begin(), exhibit_refusals_.end());
+  if (told_exhibits_ && *told_exhibits_ == data) return;
+  museum_->set_exhibits(data);
+  told_exhibits_ = std::move(data);
+}
+
 Expected<std::unique_ptr<ServerTransport>> ServerTransport::start(const TransportConfig& config) {
   if (auto named = proto::check_name(config.server, "server"); !named) return tl::unexpected<Error>(named.error());
   auto participant = proto::Participant::create(config.domain);
   if (!participant) return tl::unexpected<Error>(participant.error());
   auto impl = std::make_unique<Impl>(config, std::move(*participant));
   if (auto opened = impl->open_endpoints(); !opened) return tl::unexpected<Error>(opened.error());
+  impl->set_scenarios(config.scenarios);
   return std::unique_ptr<ServerTransport>(new ServerTransport(std::move(impl)));
 }
 
@@ -431,6 +483,21 @@ void ServerTransport::refuse_kiosk(const std::string& kiosk, const std::string& 
 }
 void ServerTransport::publish_server_status(const ServerStatusData& data) {
   impl_->museum().set_status(impl_->wire_status(data), data.overload);
+}
+void ServerTransport::set_scenarios(const std::vector<std::string>& scenarios) {
+  impl_->set_scenarios(scenarios);
+}
+bool ServerTransport::has_room_for(const std::string& scenario) const {
+  return impl_->scenarios.has_room_for(scenario);
+}
+const std::string& ServerTransport::scenario(std::uint32_t number) const {
+  return impl_->scenarios.name(number);
+}
+std::vector<ExhibitOrder> ServerTransport::take_exhibit_orders(TimePoint now) {
+  return impl_->take_exhibit_orders(now);
+}
+void ServerTransport::publish_exhibits(ExhibitStatusData data) {
+  impl_->publish_exhibits(std::move(data));
 }
 bool ServerTransport::fifo_granted() const {
   return impl_->haptic().fifo_granted();

@@ -9,6 +9,8 @@
 
 #include "server/base/error.hpp"
 #include "server/realtime/histogram.hpp"
+#include "server/transport/exhibit_gate.hpp"
+#include "server/transport/exhibit_status.hpp"
 #include "server/transport/session_table.hpp"
 #include "server/transport/validate.hpp"
 #include "server/transport/world_port.hpp"
@@ -18,8 +20,10 @@ namespace mechane::transport {
 struct TransportConfig {
   std::string server = "server-1";       ///< name on the wire: 1 to 31 characters of A-Z a-z 0-9 - _
   std::string version{};                 ///< of the program
-  std::vector<std::string> scenarios{};  ///< ids of what a kiosk may ask for, home first
-  std::uint32_t domain = 0;              ///< DDS domain, 0 .. 230; the network is set up by CYCLONEDDS_URI
+  std::vector<std::string> scenarios{};  ///< ids of what a kiosk may ask for, home first; see set_scenarios()
+  std::optional<proto::ExhibitKey>
+      exhibit_key{};         ///< that requests about exhibits are sealed with; none: none are taken
+  std::uint32_t domain = 0;  ///< DDS domain, 0 .. 230; the network is set up by CYCLONEDDS_URI
   int fifo_priority =
       0;  ///< SCHED_FIFO of the threads that receive hands and write forces, 0 .. 98; 0: ordinary threads
   std::optional<int> cpu{};  ///< pins the thread that writes forces to this processor
@@ -95,6 +99,18 @@ class ServerTransport {
 
   /// The server's status from now on; it is sent ten times a second.
   void publish_server_status(const ServerStatusData& data);
+
+  /// What kiosks may ask for from now on, home first.
+  void set_scenarios(const std::vector<std::string>& scenarios);
+  /// Whether set_scenarios() can take this id: there is a limit on how many different ones a server has in its life.
+  [[nodiscard]] bool has_room_for(const std::string& scenario) const;
+  /// The id of WorldPort::take_request()'s number.
+  [[nodiscard]] const std::string& scenario(std::uint32_t number) const;
+  /// The requests about exhibits that have come since the last call, each sealed with our key and taken once. Others are logged and
+  /// dropped. Answer each in publish_exhibits().
+  [[nodiscard]] std::vector<ExhibitOrder> take_exhibit_orders(TimePoint now);
+  /// Tells of the exhibits and of answers, where anything has changed.
+  void publish_exhibits(ExhibitStatusData data);
 
   [[nodiscard]] bool fifo_granted() const;
   [[nodiscard]] const RejectCounters& rejected() const;

@@ -66,7 +66,7 @@ bool same_pose(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-WorldEndpoints::WorldEndpoints(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios)
+WorldEndpoints::WorldEndpoints(WorldPort& port, RejectCounters& rejects, const ScenarioNames& scenarios)
     : port_(port), rejects_(rejects), scenarios_(scenarios) {
   const auto& bodies = port.description().bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -78,7 +78,7 @@ WorldEndpoints::WorldEndpoints(WorldPort& port, RejectCounters& rejects, const s
 
 Expected<std::unique_ptr<WorldEndpoints>> WorldEndpoints::create(const proto::Participant& participant, WorldPort& port,
                                                                  RejectCounters& rejects,
-                                                                 const std::vector<std::string>& scenarios) {
+                                                                 const ScenarioNames& scenarios) {
   std::unique_ptr<WorldEndpoints> made(new WorldEndpoints(port, rejects, scenarios));
   const std::string partition = proto::world_partition(port.world());
   const auto open = [&](auto& endpoint, auto created) -> std::optional<Error> {
@@ -143,9 +143,8 @@ void WorldEndpoints::take_for_tick(const proto::Command& wire) {
 }
 
 void WorldEndpoints::take_request(const std::string& scenario, std::uint64_t id) {
-  const auto found = scenario.empty() ? scenarios_.begin() : std::find(scenarios_.begin(), scenarios_.end(), scenario);
-  if (found == scenarios_.end() || !port_.offer_request(static_cast<std::uint32_t>(found - scenarios_.begin())))
-    refuse(id);
+  const auto found = scenarios_.find(scenario);
+  if (!found || !port_.offer_request(*found)) refuse(id);
 }
 
 void WorldEndpoints::take_answer(const std::string& argument, std::uint64_t id) {

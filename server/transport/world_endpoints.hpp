@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/realtime/ring.hpp"
+#include "server/transport/scenario_names.hpp"
 #include "server/transport/validate.hpp"
 #include "server/transport/world_port.hpp"
 #include <mechane/proto/entity.hpp>
@@ -17,10 +18,10 @@ namespace mechane::transport {
 /// Made by the main thread. write() is for the museum publisher's thread. Commands are checked on a thread of Cyclone's.
 class WorldEndpoints {
  public:
-  /// `scenarios`: ids of what a kiosk may ask for, home first. What the references refer to outlives it. Errors: io_failure (DDS).
+  /// `scenarios`: what a kiosk may ask for. What the references refer to outlives it. Errors: io_failure (DDS).
   [[nodiscard]] static Expected<std::unique_ptr<WorldEndpoints>> create(const proto::Participant& participant,
                                                                         WorldPort& port, RejectCounters& rejects,
-                                                                        const std::vector<std::string>& scenarios);
+                                                                        const ScenarioNames& scenarios);
   WorldEndpoints(const WorldEndpoints&) = delete;
   WorldEndpoints& operator=(const WorldEndpoints&) = delete;
 
@@ -32,7 +33,7 @@ class WorldEndpoints {
   [[nodiscard]] std::uint64_t writes_failed() const { return failed_; }
 
  private:
-  WorldEndpoints(WorldPort& port, RejectCounters& rejects, const std::vector<std::string>& scenarios);
+  WorldEndpoints(WorldPort& port, RejectCounters& rejects, const ScenarioNames& scenarios);
   void take_request(const std::string& scenario, std::uint64_t id);
   void take_commands(proto::ReaderView<proto::Command> view);
   /// For commands that a tick carries out.
@@ -52,7 +53,7 @@ class WorldEndpoints {
 
   WorldPort& port_;
   RejectCounters& rejects_;
-  const std::vector<std::string>& scenarios_;
+  const ScenarioNames& scenarios_;
 
   /// The reply to a command that no tick carries out.
   struct Reply {

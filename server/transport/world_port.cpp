@@ -40,6 +40,22 @@ HandSnapshot snapshot_of(const state::UserState& user, const SlotName& name) noe
   return hand;
 }
 
+bool is_zero(const hand::HandForce& force) noexcept {
+  return force.force_W.f.isZero(0) && force.force_W.t.isZero(0) &&
+         std::ranges::all_of(force.finger_force_n, [](double n) { return n == 0; });
+}
+
+/// What a hand is told that is to feel nothing: whether it holds something, and that its newest sample has come. Its clicks are counted on,
+/// so that none is late.
+hand::HapticOutput without_force(const hand::HapticOutput& output, const hand::SentSample& newest) noexcept {
+  hand::HapticOutput quiet;
+  quiet.echo_sequence = newest.sequence;
+  quiet.echo_sent_ns = newest.sent_ns;
+  quiet.holding = output.holding;
+  quiet.clicks.count = output.clicks.count;
+  return quiet;
+}
+
 }  // namespace
 
 WorldPort::WorldPort(std::string world, std::shared_ptr<const state::WorldDescription> description,
@@ -135,24 +151,32 @@ void WorldPort::take_bindings() noexcept {
   generation_in_use_.store(current_.generation, std::memory_order_release);
 }
 
-void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
+void WorldPort::take_samples(TimePoint now) noexcept {
   now_ = now;
+  retreats_ = retreating_.load(std::memory_order_acquire) || !passage_.hands;
   take_bindings();
   bool any_fresh = false;
   for (std::size_t i = 0; i < users_.size(); ++i) {
+    if (current_.channels[i] == nullptr) continue;
     state::UserInput& user = users_[i];
-    user.fresh = false;
-    if (current_.channels[i] != nullptr) {
-      if (const ArrivedSample* sample = current_.channels[i]->inputs.take()) {
-        user.fresh = any_fresh = true;
-        user.sample = sample->sample;
-        arrived_[i] = sample->arrived;
-      }
-      user.age = std::max(now - arrived_[i], Duration{0});
+    if (const ArrivedSample* sample = current_.channels[i]->inputs.take()) {
+      user.fresh = any_fresh = true;
+      user.sample = sample->sample;
+      arrived_[i] = sample->arrived;
     }
-    inputs.users[i] = user;
+    user.age = std::max(now - arrived_[i], Duration{0});
   }
   if (any_fresh) haptic_.expect_forces();
+}
+
+void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
+  take_samples(now);
+  for (std::size_t i = 0; i < users_.size(); ++i) {
+    inputs.users[i] = users_[i];
+    users_[i].fresh = false;
+    // The journal has it so, too: a hand that leaves, which the governor ramps down.
+    if (retreats_) inputs.users[i].present = inputs.users[i].fresh = false;
+  }
   inputs.command_count = 0;
   while (inputs.command_count < inputs.commands.size() && commands_.pop(inputs.commands[inputs.command_count])) {
     ++inputs.command_count;
@@ -161,18 +185,21 @@ void WorldPort::gather(state::TickInputs& inputs, TimePoint now) noexcept {
 
 void WorldPort::publish_forces(const state::WorldState& state) noexcept {
   bool any_force = false;
+  bool all_zero = true;
   for (std::size_t i = 0; i < current_.channels.size(); ++i) {
     const state::UserState& user = state.users[i];
-    if (current_.channels[i] == nullptr || !user.present) continue;
+    if (current_.channels[i] == nullptr || (!user.present && !retreats_)) continue;
     OutgoingForce& out = current_.channels[i]->forces.writable();
-    out.output = user.output;
-    out.p_WH = user.X_WH.p;
+    out.output = passage_.forces ? user.output : without_force(user.output, users_[i].sample);
+    out.p_WH = user.present ? user.X_WH.p : users_[i].sample.X_WH.p;
     out.tick = state.tick;
-    out.waited = user.age;
+    out.waited = user.present ? user.age : users_[i].age;
+    all_zero = all_zero && is_zero(user.output);
     current_.channels[i]->forces.commit();
     any_force = true;
   }
   if (any_force) haptic_.forces_are_ready();
+  at_rest_.store(retreats_ && all_zero, std::memory_order_release);
 }
 
 void WorldPort::publish(const state::WorldState& state, std::span<const Vec3> shown_W) noexcept {
@@ -182,7 +209,14 @@ void WorldPort::publish(const state::WorldState& state, std::span<const Vec3> sh
   if (shows(state.tick)) publish_snapshot(state, shown_W);
 }
 
+void WorldPort::hold(const state::WorldState& state, TimePoint now, std::span<const Vec3> shown_W) noexcept {
+  take_samples(now);
+  publish_forces(state);
+  if (++unseen_held_ >= kTicksPerFrame) publish_snapshot(state, shown_W);
+}
+
 void WorldPort::publish_snapshot(const state::WorldState& state, std::span<const Vec3> shown_W) noexcept {
+  unseen_held_ = 0;
   SceneSnapshot& s = snapshots_.writable();
   s.tick = state.tick;
   s.sampled_ns = to_ns(now_);

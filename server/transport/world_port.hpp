@@ -86,16 +86,29 @@ class WorldPort {
   [[nodiscard]] std::size_t slot_of(std::uint64_t session) const;
   /// A free slot; kMaxUsers when all are taken.
   [[nodiscard]] std::size_t free_slot() const;
-  /// The newest request from a kiosk of this world: the scenario to go on to, as its index in TransportConfig::scenarios.
+  /// The newest request from a kiosk of this world: the scenario to go on to, as its number in ServerTransport::scenario().
   [[nodiscard]] std::optional<std::uint32_t> take_request();
   /// The next answer of a visitor, in the order in which they came.
   [[nodiscard]] std::optional<state::VisitAnswer> take_answer();
   /// The newest language that a display has reported, as its index in the description's languages.
   [[nodiscard]] std::optional<std::uint32_t> take_language();
+  /// From now on no hand is in the world, for good: the loop sends the hands that were there their way to no force.
+  void retreat() noexcept { retreating_.store(true, std::memory_order_release); }
+  /// Whether hands are gone, by retreat() or let_through(), and the last forces that were sent are zero. Also for the loop.
+  [[nodiscard]] bool forces_are_zero() const noexcept { return at_rest_.load(std::memory_order_acquire); }
   /// Releases channels that the loop has stopped using. ServerTransport::poll() calls it.
   void collect();
 
+  /// What a loop lets through between its worlds and their hands.
+  struct Passage {
+    bool hands = true;   ///< false: hands are seen as gone
+    bool forces = true;  ///< false: devices get no force and no contacts, whatever their hands do
+    friend bool operator==(const Passage&, const Passage&) = default;
+  };
+
   // Loop thread: wait-free, no allocation, no DDS.
+  /// From now on.
+  void let_through(const Passage& passage) noexcept { passage_ = passage; }
   /// Fills all of `inputs`: for each slot the newest sample with its age on our clock, and the commands that came (at most
   /// kMaxCommandsPerTick in a tick; the rest wait for the next one). A fresh sample wakes the haptic publisher, so that it is ready when
   /// the forces are.
@@ -106,6 +119,9 @@ class WorldPort {
   [[nodiscard]] static bool shows(std::uint64_t tick) noexcept { return tick % kTicksPerFrame == 1; }
   /// Publishes all events, and every 16th tick a snapshot for displays. `shown_W`: in W, by user, how far beside its place a hand is shown.
   void publish(const state::WorldState& state, std::span<const Vec3> shown_W = {}) noexcept;
+  /// Instead of a tick, in a period in which the world stands still: hands are answered as in a tick, and displays are shown the scene as
+  /// it is as often as otherwise. Samples that come are fresh for the next tick; commands wait for it.
+  void hold(const state::WorldState& state, TimePoint now, std::span<const Vec3> shown_W = {}) noexcept;
 
   // For other threads of the transport, each function for the one named.
   bool offer_command(const state::Command& command) noexcept { return commands_.push(command); }  ///< command listener
@@ -130,6 +146,7 @@ class WorldPort {
 
   void hand_over_bindings();
   void take_bindings() noexcept;
+  void take_samples(TimePoint now) noexcept;
   void publish_snapshot(const state::WorldState& state, std::span<const Vec3> shown_W) noexcept;
 
   // For the main thread.
@@ -152,12 +169,17 @@ class WorldPort {
   realtime::Ring<state::VisitAnswer> answers_{64};
   realtime::Ring<std::uint32_t> languages_{8};
   std::atomic<std::uint64_t> events_lost_{0};
+  std::atomic<bool> retreating_{false};
+  std::atomic<bool> at_rest_{false};
 
   // For the loop thread.
   Bindings current_;
   std::array<state::UserInput, hand::kMaxUsers> users_{};
   std::array<TimePoint, hand::kMaxUsers> arrived_{};
   TimePoint now_{};
+  Passage passage_;
+  bool retreats_ = false;          ///< in this tick
+  std::uint64_t unseen_held_ = 0;  ///< periods held since the last snapshot
 };
 
 }  // namespace mechane::transport

@@ -91,7 +91,7 @@ Expected<RemarkBook> RemarkBook::open(std::filesystem::path file) {
   const auto bytes = read_whole(book.file_, kMostBookBytes);
   if (!bytes && bytes.error().code == ErrorCode::not_found) return book;
   if (!bytes) return tl::unexpected(bytes.error());
-  auto remarks = parse_remarks({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  auto remarks = parse_remarks(as_text(*bytes));
   if (!remarks) return tl::unexpected(remarks.error().in(book.file_.string()));
   book.remarks_ = std::move(*remarks);
   return book;

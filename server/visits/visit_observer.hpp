@@ -56,6 +56,8 @@ class VisitObserver {
   /// The world closes. `why`: cut, because the server stops, or left. `went_on_to`: the scenario that the visitor went on to, or empty.
   void close(VisitEnding why, const std::string& went_on_to = {});
 
+  /// Whether a visitor is there, as far as can be told: see above.
+  [[nodiscard]] bool visit_runs() const { return !is_over(); }
   /// The records that have changed since the last call, each as it is now.
   [[nodiscard]] std::vector<VisitRecord> take_changed();
 

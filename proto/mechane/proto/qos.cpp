@@ -65,6 +65,9 @@ Qos scene_frame_qos() {
 Qos world_assignment_qos() {
   return last_known_value();
 }
+Qos exhibit_status_qos() {
+  return last_known_value();
+}
 Qos scene_object_qos() {
   return last_known_value();
 }

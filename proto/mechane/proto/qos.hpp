@@ -46,6 +46,7 @@ class Qos {
 [[nodiscard]] Qos world_assignment_qos();
 [[nodiscard]] Qos scene_object_qos();
 [[nodiscard]] Qos world_status_qos();
+[[nodiscard]] Qos exhibit_status_qos();
 [[nodiscard]] Qos event_qos();
 [[nodiscard]] Qos command_qos();
 [[nodiscard]] Qos server_status_qos();

@@ -30,6 +30,8 @@ using KioskStatus = ::mechane_KioskStatus;
 using DisplayStatus = ::mechane_DisplayStatus;
 using DisplayRequest = ::mechane_DisplayRequest;
 using ViewerHead = ::mechane_ViewerHead;
+using ExhibitStatus = ::mechane_ExhibitStatus;
+using ExhibitRequest = ::mechane_ExhibitRequest;
 using WirePose = ::mechane_Pose;
 using WireLocalContact = ::mechane_LocalContact;
 using WireHeldPath = ::mechane_HeldPath;
@@ -48,6 +50,8 @@ using WireAffordance = ::mechane_Affordance;
 using HandOwner = ::mechane_HandOwner;
 using WireSetting = ::mechane_DisplaySetting;
 using WireRequestAnswer = ::mechane_RequestAnswer;
+using WireExhibit = ::mechane_OpenableExhibit;
+using WireExhibitAnswer = ::mechane_ExhibitAnswer;
 
 /// Where a topic's endpoints live.
 enum class Place { museum, kiosk, world };
@@ -79,6 +83,8 @@ MECHANE_PROTO_TOPIC(KioskStatus, museum, kiosk_status_qos);
 MECHANE_PROTO_TOPIC(DisplayStatus, museum, display_status_qos);
 MECHANE_PROTO_TOPIC(DisplayRequest, museum, command_qos);
 MECHANE_PROTO_TOPIC(ViewerHead, museum, viewer_head_qos);
+MECHANE_PROTO_TOPIC(ExhibitStatus, museum, exhibit_status_qos);
+MECHANE_PROTO_TOPIC(ExhibitRequest, museum, command_qos);
 #undef MECHANE_PROTO_TOPIC
 // clang-format on
 

@@ -82,5 +82,10 @@ TEST_F(SettingsTest, AForceLimitOutOfItsRangeIsAnErrorThatNamesIt) {
   EXPECT_TRUE(read({"--scenario=a.x3d", "--max-force=0"})) << "touch can be turned off";
 }
 
+TEST_F(SettingsTest, OrdersAreTakenOnlyWhereThatIsAskedFor) {
+  EXPECT_FALSE(read({"--scenario=a.x3d"})->paced);
+  EXPECT_TRUE(read({"--scenario=a.x3d", "--paced"})->paced);
+}
+
 }  // namespace
 }  // namespace mechane::app

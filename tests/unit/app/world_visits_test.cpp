@@ -77,7 +77,7 @@ class WorldVisitsTest : public testing::Test {
 TEST_F(WorldVisitsTest, WhatTheLoopNotesAndTheVisitorAnswersIsOnTheDisk) {
   state::WorldState state = begun();
   {
-    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
+    WorldVisits visits(writer_.get(), description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     tick(visits, state, {state::EventKind::activity_done});
     ASSERT_TRUE(visits.answer({ActivityId(0), 0, 5, state::AnswerTime::after}));
@@ -94,13 +94,13 @@ TEST_F(WorldVisitsTest, WhatTheLoopNotesAndTheVisitorAnswersIsOnTheDisk) {
 TEST_F(WorldVisitsTest, AWorldThatIsResumedGoesOnWithItsRecordAndANewOneDoesNot) {
   state::WorldState state = begun();
   {
-    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
+    WorldVisits visits(writer_.get(), description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     visits.close(VisitEnding::cut, "");
   }
   start();
   {
-    WorldVisits visits(*writer_, description_, "kiosk-1", state, true);
+    WorldVisits visits(writer_.get(), description_, "kiosk-1", state, true);
     tick(visits, state, {state::EventKind::activity_done});
     visits.close(VisitEnding::left, "");
   }
@@ -109,7 +109,7 @@ TEST_F(WorldVisitsTest, AWorldThatIsResumedGoesOnWithItsRecordAndANewOneDoesNot)
   start();
   state = begun();
   {
-    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
+    WorldVisits visits(writer_.get(), description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::touched});
     visits.close(VisitEnding::left, "elsewhere");
   }
@@ -119,7 +119,7 @@ TEST_F(WorldVisitsTest, AWorldThatIsResumedGoesOnWithItsRecordAndANewOneDoesNot)
 TEST_F(WorldVisitsTest, AWorldThatNobodyTouchedLeavesNothing) {
   state::WorldState state = begun();
   {
-    WorldVisits visits(*writer_, description_, "kiosk-1", state, false);
+    WorldVisits visits(writer_.get(), description_, "kiosk-1", state, false);
     tick(visits, state, {state::EventKind::user_joined});
     visits.look();
     visits.close(VisitEnding::left, "");

@@ -23,11 +23,26 @@ Error refusal_of(const std::string& name, const std::string& value) {
 }
 
 TEST(DisplaySettings, each_is_read_as_it_is_written) {
-  DisplaySettings all{0.25, true, "en", true, true, "both", 90, false, 33, "cached", "closed", "Γεια", "Hello"};
+  DisplaySettings all{0.25, true,     "en",     true,   true,    "both",     90, false,
+                      33,   "cached", "closed", "Γεια", "Hello", "http://a", ""};
   DisplaySettings read;
   ASSERT_TRUE(client::apply(settings_of(all), read).has_value());
   EXPECT_EQ(read, all);
   EXPECT_EQ(settings_of(all).size(), display_settings().size());
+}
+
+TEST(DisplaySettings, a_phones_code_is_not_told_to_who_asks) {
+  DisplaySettings settings;
+  ASSERT_TRUE(client::apply(DisplaySetting{"phone-address", "https://[fe80::1]:8480"}, settings).has_value());
+  ASSERT_TRUE(client::apply(DisplaySetting{"phone-code", "aB3-_"}, settings).has_value());
+  EXPECT_EQ(settings.phone_code, "aB3-_");
+  for (const DisplaySetting& told : settings_of(settings))
+    EXPECT_EQ(told.value.find("aB3"), std::string::npos) << told.name;
+  const std::string long_one = "https://" + std::string(60, 'a');
+  for (const std::string value :
+       {"museum:8480", "ftp://museum", "https://", "https://a/b", "https://a b", "https://a?x", long_one.c_str()})
+    EXPECT_THAT(refusal_of("phone-address", value), is_error(ErrorCode::invalid_value, 0, {"http"})) << value;
+  EXPECT_THAT(refusal_of("phone-code", "a&b"), is_error(ErrorCode::invalid_value, 0, {"letters"}));
 }
 
 TEST(DisplaySettings, what_is_out_of_its_range_is_refused_with_the_range) {

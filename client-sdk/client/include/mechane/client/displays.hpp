@@ -37,6 +37,8 @@ struct DisplaySettings {
   std::string sign = "none";
   std::string message_el{};  ///< message-el, message-en: the museum's words to visitors, kMostMessage bytes at most
   std::string message_en{};
+  std::string phone_address{};  ///< phone-address: of the gateway for phones, http(s)://HOST(:PORT); empty: none
+  std::string phone_code{};     ///< phone-code: the token in it, letters, digits, - and _; empty: none. A secret
   /// A display with a sign is silent.
   [[nodiscard]] bool silent() const { return muted || sign != "none"; }
   friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
