@@ -20,7 +20,8 @@ DisplayLoop::DisplayLoop(const DisplayOptions& options, DisplaySignals& signals,
       window_(window),
       news_(options, source, open_assets(options, catalogue, worker)),
       visitor_(options, window, news_, std::move(attract)),
-      presenter_(options, signals, context, window, std::move(renderer), news_, visitor_),
+      phone_code_(options.kiosk),
+      presenter_(options, signals, context, window, std::move(renderer), news_, visitor_, phone_code_),
       desk_(*source.client, identity_of(options, context), settings_at_start(options), clock_.now()),
       folder_(options.out, options.stereo) {}
 
@@ -92,6 +93,7 @@ Expected<void> DisplayLoop::tend_kiosk(TimePoint now) {
     presenter_.soundtrack().set_levels(requested.volume, requested.silent());
     if (auto ok = presenter_.set_quality(requested.quality); !ok) return ok;
   }
+  phone_code_.hear(desk_.settings(), desk_.codes_told(), now);
   if (!desk_.report_due(now)) return {};
   const scene::ShownWorld& world = news_.world();
   desk_.report({context_.size(), world.status(), world.missing(), presenter_.soundtrack().state(),

@@ -10,6 +10,7 @@
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/kiosk_desk.hpp"
 #include "client-sdk/display/news.hpp"
+#include "client-sdk/display/phone_code.hpp"
 #include "client-sdk/display/picture_folder.hpp"
 #include "client-sdk/display/presenter.hpp"
 #include "client-sdk/display/visitor.hpp"
@@ -48,6 +49,7 @@ class DisplayLoop {
   SystemClock clock_;
   News news_;
   Visitor visitor_;
+  PhoneCode phone_code_;
   Presenter presenter_;
   KioskDesk desk_;
   PictureSchedule schedule_;

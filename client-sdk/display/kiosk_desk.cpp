@@ -76,8 +76,11 @@ void KioskDesk::answer(const client::DisplayRequest& request) {
   if (requested.attract && !identity_.has_attract && !settings_.attract)
     return say({request.id, "this display has no recorded visit to show: start it with --attract FILE", ""});
   settings_ = requested;
-  for (const client::DisplaySetting& setting : request.settings)
+  for (const client::DisplaySetting& setting : request.settings) {
+    if (setting.name == "phone-code") ++codes_told_;
+    if (setting.name.starts_with("phone-")) continue;  // told every few seconds, and a secret
     log::info(fmt::format("set from another machine: {}={}", setting.name, setting.value));
+  }
   if (request.restart) {
     log::info("another machine asked to start this display again");
     restart_ = Restart::asked;

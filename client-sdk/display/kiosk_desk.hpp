@@ -95,6 +95,8 @@ class KioskDesk {
   /// Answers requests. True if settings changed. `style`: as visitors have set it with keys.
   [[nodiscard]] bool take_requests(const picture::OverlayStyle& style);
   [[nodiscard]] const client::DisplaySettings& settings() const { return settings_; }
+  /// How often a gateway has told the code for phones, which it does again and again.
+  [[nodiscard]] std::uint64_t codes_told() const { return codes_told_; }
   /// Whether somebody requested a picture.
   [[nodiscard]] bool picture_wanted() const { return !picture_for_.empty(); }
   /// Takes the ids of these requests. One picture is taken for all of them; their answer is its file, or why there is
@@ -125,6 +127,7 @@ class KioskDesk {
   std::vector<std::uint64_t> picture_for_;  ///< ids of requests that still wait for a picture
   std::deque<client::RequestAnswer> answers_;
   Restart restart_ = Restart::none;
+  std::uint64_t codes_told_ = 0;
 };
 
 }  // namespace mechane::display

@@ -18,7 +18,8 @@ constexpr Duration kCardComesBack = std::chrono::seconds(60);
 }  // namespace
 
 Presenter::Presenter(const DisplayOptions& options, const DisplaySignals& signals, draw::GlContext& context,
-                     Window* window, std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor)
+                     Window* window, std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor,
+                     const PhoneCode& code)
     : options_(options),
       signals_(signals),
       context_(context),
@@ -26,6 +27,7 @@ Presenter::Presenter(const DisplayOptions& options, const DisplaySignals& signal
       renderer_(std::move(renderer)),
       news_(news),
       visitor_(visitor),
+      code_(code),
       soundtrack_(options.sound, !options.offscreen, options.language) {}
 
 LastPicture Presenter::last_picture() const {
@@ -85,6 +87,8 @@ picture::RenderScene Presenter::compose(TimePoint now) {
   if (step_view_.is_narrow() && !scene.inset && invitation == nullptr)
     scene.inset = picture::Inset{scene.camera, visitor_.language() == "el" ? "Ολόκληρη η μηχανή" : "The whole machine"};
   place_camera(scene);
+  if (invitation != nullptr || (shows_live_world() && visitor_.at_home()))
+    scene.overlay.code = code_.at(now, visitor_.language());
   if (invitation != nullptr) {
     scene.overlay.message = visitor_.message();
     return scene;

@@ -11,6 +11,7 @@
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/last_picture.hpp"
 #include "client-sdk/display/news.hpp"
+#include "client-sdk/display/phone_code.hpp"
 #include "client-sdk/display/soundtrack.hpp"
 #include "client-sdk/display/visitor.hpp"
 #include "client-sdk/display/window.hpp"
@@ -25,7 +26,7 @@ class Presenter {
  public:
   /// `window` is the context's, null offscreen. `renderer` is made in the context as it is now.
   Presenter(const DisplayOptions& options, const DisplaySignals& signals, draw::GlContext& context, Window* window,
-            std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor);
+            std::unique_ptr<draw::Renderer> renderer, News& news, const Visitor& visitor, const PhoneCode& code);
 
   /// Frees everything that was uploaded, and uploads what is shown now.
   void replace_assets();
@@ -71,6 +72,7 @@ class Presenter {
   std::optional<draw::DrawTimer> timer_;           ///< likewise
   News& news_;
   const Visitor& visitor_;
+  const PhoneCode& code_;
   SystemClock clock_;
   Soundtrack soundtrack_;
   CaptionRoom caption_room_;

@@ -51,8 +51,8 @@ void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now
   }
   if (news_.calibration().asks()) panel_.notice_visitor(now);
   const auto server = client_.server_status();
-  const std::string home = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
-  panel_.update({news_.world().status(), news_.world().presentation(), news_.frame(), home}, now);
+  home_ = server && !server->scenarios.empty() ? server->scenarios.front() : std::string();
+  panel_.update({news_.world().status(), news_.world().presentation(), news_.frame(), home_}, now);
   decisions_.send(panel_, client_, news_.world().presentation());
   if (panel_.language() == language_) return;
   language_ = panel_.language();

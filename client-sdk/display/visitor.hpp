@@ -42,6 +42,10 @@ class Visitor {
 
   /// The recorded visit, while it is shown; else null.
   [[nodiscard]] AttractLoop* invitation() const { return invites_ ? attract_.get() : nullptr; }
+  /// Whether the kiosk shows the server's first scenario.
+  [[nodiscard]] bool at_home() const {
+    return news_.world().status() != nullptr && news_.world().status()->scenario == home_;
+  }
   /// Language of all words in the picture.
   [[nodiscard]] const std::string& language() const { return language_; }
   /// The museum's words to visitors; empty: none.
@@ -70,6 +74,7 @@ class Visitor {
   bool invites_ = false;
   bool forces_shown_;
   std::string language_;
+  std::string home_;
   visit::DecisionSender decisions_;
 };
 

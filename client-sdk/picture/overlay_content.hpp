@@ -70,6 +70,13 @@ struct OverlayPose {
   std::uint32_t done = 0, total = 0;  ///< poses
 };
 
+/// A QR code, with a line of words under it.
+struct OverlayCode {
+  std::uint32_t side = 0;    ///< modules, without the quiet ones around
+  std::vector<bool> dark{};  ///< side x side, rows from above
+  std::string text{};
+};
+
 /// Everything that is written over the picture, in one language, UTF-8.
 struct OverlayContent {
   std::string title;
@@ -89,6 +96,7 @@ struct OverlayContent {
   std::vector<OverlayDot> dots{};        ///< of the display's own hand
   std::optional<OverlayLabel> label{};   ///< of the thing under the pointer
   std::optional<OverlayAction> meant{};  ///< action of the button under the mouse, which is highlighted
+  std::optional<OverlayCode> code{};  ///< over the corner's buttons, where there is room; not beside a panel or a pose
 };
 
 }  // namespace mechane::picture

@@ -48,9 +48,11 @@ struct PointerLink::Sensed {
   std::vector<std::string> enabled;
   std::shared_ptr<const client::WorldPresentation> presentation;
   std::uint64_t looks = 0;
+  bool seen = false;  ///< a frame has come: before, poses would be those of the exhibit's file
   bool holding = false;
 
   [[nodiscard]] std::optional<PointerSenses> of(std::uint32_t object) const {
+    if (!seen) return std::nullopt;
     return senses_of({&frame, objects, presentation.get(), enabled}, object, holding);
   }
 };
@@ -129,7 +131,7 @@ std::unique_ptr<client::Client> PointerLink::open() {
 
 void PointerLink::look(client::Client& client, Sensed& sensed) const {
   if (const auto force = client.newest_force()) sensed.holding = force->holding;
-  if (sensed.looks % kLookEvery == 0) (void)client.newest_frame(sensed.frame);
+  if (sensed.looks % kLookEvery == 0) sensed.seen = client.newest_frame(sensed.frame) || sensed.seen;
   if (sensed.looks % kStatusEvery == 0) {
     sensed.presentation = client.presentation();
     if (auto status = client.world_status()) sensed.enabled = std::move(status->enabled_agents);

@@ -230,6 +230,12 @@ Box add_note(Page& page, const Note& note, float left, float y) {
   return box;
 }
 
+Box united(const Box& a, const Box& b) {
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  const float x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+  return {x, y, std::max(a.right(), b.right()) - x, std::max(a.below(), b.below()) - y};
+}
+
 bool overlap(const Box& a, const Box& b) {
   return !a.empty() && !b.empty() && a.shares_columns(b) && a.y < b.below() && b.y < a.below();
 }
@@ -402,7 +408,8 @@ OverlayLayout lay_out(const picture::OverlayContent& content, picture::PixelSize
   } else if (content.pose) {
     lay_out_pose(page, *content.pose, corner);
   } else {
-    lay_out_captions(page, content, corner, inset);
+    const Box code = content.code ? add_code(page, *content.code, corner) : Box();
+    lay_out_captions(page, content, united(corner, code), inset);
   }
   return std::move(page.out);
 }

@@ -76,6 +76,9 @@ class Page {
 /// Adds the buttons at the lower right. Returns their block; empty: none.
 Box add_corner(Page& page, const std::vector<picture::OverlayButton>& buttons);
 
+/// Adds a QR code over the block `corner` at the lower right. Returns its block; empty: the picture is too small for it.
+Box add_code(Page& page, const picture::OverlayCode& code, const Box& corner);
+
 /// Adds the pose that a visitor is asked for, in the middle of `room`.
 void add_pose(Page& page, const picture::OverlayPose& pose, const Box& room);
 

@@ -60,6 +60,56 @@ TEST(OverlayLayout, everything_lies_within_the_picture) {
   }
 }
 
+/// A code of so many modules a side, with its finders' corners dark.
+picture::OverlayCode chequered(std::uint32_t side) {
+  picture::OverlayCode code{side, {}, "On your phone"};
+  for (std::uint32_t i = 0; i < side * side; ++i)
+    code.dark.push_back(i % 2 == 0);
+  return code;
+}
+
+TEST(OverlayLayout, a_code_has_quiet_around_it_and_covers_nothing) {
+  for (const float words : {1.0F, 1.5F}) {
+    for (const picture::PixelSize size : {picture::PixelSize{1280, 720}, {1920, 1080}, {1080, 1920}, {3840, 2160}}) {
+      picture::OverlayContent content;
+      content.title = "Το χωριό";
+      content.caption = "Αγγίξτε μια πινακίδα για να πάτε στη μηχανή της.";
+      content.style.text_scale = words;
+      content.corner = {{{picture::OverlayAction::Kind::language, "el"}, "Ελληνικά"}};
+      const OverlayLayout without = lay_out(content, size, half_square);
+      content.code = chequered(37);
+      const OverlayLayout with = lay_out(content, size, half_square);
+      // The card and its modules follow each other.
+      const auto card = std::ranges::find_if(with.shapes, [](const OverlayShape& s) { return s.colour.x() > 0.97F; });
+      ASSERT_NE(card, with.shapes.end()) << size.width;
+      const auto module = std::next(card);
+      ASSERT_GE(module->width, 2) << size.width;
+      EXPECT_EQ(module->width, std::round(module->width)) << "sharp edges";
+      EXPECT_GE(module->x - card->x, 4 * module->width);
+      EXPECT_GE(module->y - card->y, 4 * module->width);
+      EXPECT_GE(card->x + card->width - module->x, (37 + 4) * module->width);
+      EXPECT_GE(card->y + card->height - module->y, (37 + 4) * module->width);
+      EXPECT_LE(card->x + card->width, static_cast<float>(size.width));
+      EXPECT_EQ(
+          std::count_if(card, with.shapes.end(), [&](const OverlayShape& s) { return s.colour == module->colour; }),
+          (37 * 37 + 1) / 2);
+      for (const OverlayTarget& target : with.targets)
+        EXPECT_LE(card->y + card->height, target.y) << "it stands over the buttons";
+      const auto& panel = with.shapes[without.shapes.size() > 1 ? with.shapes.size() - 1 : 0];
+      EXPECT_TRUE(panel.x + panel.width <= card->x || panel.y + panel.height <= card->y ||
+                  panel.y >= card->y + card->height)
+          << size.width;
+    }
+  }
+}
+
+TEST(OverlayLayout, a_code_that_no_phone_could_read_is_not_drawn) {
+  picture::OverlayContent content;
+  const std::size_t before = lay_out(content, {480, 270}, half_square).shapes.size();
+  content.code = chequered(37);
+  EXPECT_EQ(lay_out(content, {480, 270}, half_square).shapes.size(), before);
+}
+
 TEST(OverlayLayout, dots_tell_what_is_done) {
   picture::OverlayContent content;
   content.title = "t";
