@@ -365,6 +365,32 @@ Json to_json(const proto::DisplayStatus& s) {
   return j;
 }
 
+Json to_json(const proto::ExhibitStatus& s) {
+  Json j = head(s);
+  j.update({{"server", text(s.server)}, {"incarnation", s.incarnation}, {"changeable", s.changeable}});
+  j.update({{"counter", s.counter}, {"preparing", proto::string_of(s.preparing)}, {"loadable", strings(s.loadable)}});
+  Json exhibits = Json::array(), answers = Json::array();
+  for (const proto::WireExhibit& e : proto::elements(s.exhibits)) {
+    exhibits.push_back({{"id", proto::string_of(e.id)},
+                        {"content_hash", proto::string_of(e.content_hash)},
+                        {"worlds", e.worlds},
+                        {"former_worlds", e.former_worlds}});
+  }
+  for (const proto::WireExhibitAnswer& a : proto::elements(s.answers)) {
+    answers.push_back({{"id", a.id},
+                       {"refusal", proto::string_of(a.refusal)},
+                       {"place", proto::string_of(a.place)},
+                       {"remedy", proto::string_of(a.remedy)}});
+  }
+  j.update({{"exhibits", exhibits}, {"answers", answers}});
+  return j;
+}
+Json to_json(const proto::ExhibitRequest& s) {
+  Json j = head(s);
+  j.update({{"server", text(s.server)}, {"id", s.id}, {"incarnation", s.incarnation}, {"counter", s.counter}});
+  j.update({{"verb", s.verb}, {"exhibit", text(s.exhibit)}, {"now", s.now}});
+  return j;
+}
 Json to_json(const proto::DisplayRequest& s) {
   Json j = head(s);
   j.update({{"kiosk", text(s.kiosk)}, {"display", text(s.display)}, {"session", s.session}, {"id", s.id}});
@@ -498,7 +524,8 @@ int run_echo(const EchoOptions& options) {
       topic<proto::SceneObject>(),    topic<proto::WorldStatus>(),       topic<proto::Event>(),
       topic<proto::Command>(),        topic<proto::WorldAssignment>(),   topic<proto::ServerStatus>(),
       topic<proto::KioskStatus>(),    topic<proto::WorldPresentation>(), topic<proto::DisplayStatus>(),
-      topic<proto::DisplayRequest>(), topic<proto::ViewerHead>()};
+      topic<proto::DisplayRequest>(), topic<proto::ViewerHead>(),        topic<proto::ExhibitStatus>(),
+      topic<proto::ExhibitRequest>()};
   for (const Topic& t : kTopics) {
     if (options.topic == t.name) return t.run(options);
   }

@@ -16,10 +16,12 @@
 #include "client-sdk/cli/displays.hpp"
 #include "client-sdk/cli/doctor.hpp"
 #include "client-sdk/cli/echo.hpp"
+#include "client-sdk/cli/exhibits.hpp"
 #include "client-sdk/cli/head.hpp"
 #include "client-sdk/cli/open.hpp"
 #include "client-sdk/cli/record.hpp"
 #include "client-sdk/cli/sibling.hpp"
+#include "client-sdk/cli/studio.hpp"
 #include "client-sdk/cli/visits.hpp"
 #include "server/base/suggestion.hpp"
 #include "server/log/command_line.hpp"
@@ -90,6 +92,31 @@ CLI::App* add_record(CLI::App& app, cli::RecordOptions& o) {
           "size in MiB at which the recording ends; without: 256")
       ->check(CLI::Range(1, 1024));
   return record;
+}
+
+CLI::App* add_exhibits(CLI::App& app, cli::ExhibitsOptions& o) {
+  CLI::App* exhibits =
+      app.add_subcommand("exhibits", "list a running server's exhibits; load, replace and retire them");
+  exhibits->require_subcommand(0, 1);
+  exhibits->add_option("--server", o.server, "name of the server; without: the first that is heard");
+  exhibits->add_option("--key", o.key, "the server's key file, which only its user can read, or a copy of it")
+      ->capture_default_str();
+  exhibits->add_option("--domain", o.domain, "DDS domain");
+  exhibits->add_option("--seconds", o.seconds, "how long the server may take: fitting new parts takes minutes")
+      ->check(CLI::Range(0.1, 7200.0))
+      ->capture_default_str();
+  exhibits->add_flag("--json", o.json, "the list as JSON");
+  exhibits->add_flag("--now", o.now, "visits in progress do not finish: their forces go to zero, and they end");
+  CLI::App* list = exhibits->add_subcommand("list", "what there is, how many worlds run it, and what could be loaded");
+  CLI::App* load = exhibits->add_subcommand("load", "load an exhibit of the server's folder");
+  CLI::App* replace =
+      exhibits->add_subcommand("replace", "read an exhibit's file anew; visits in progress finish as they began");
+  CLI::App* retire = exhibits->add_subcommand("retire", "take an exhibit out; visits in progress finish");
+  for (CLI::App* command : {load, replace, retire})
+    command->add_option("name", o.name, "id of the exhibit")->required();
+  for (CLI::App* command : {list, load, replace, retire})
+    command->fallthrough();  // options may follow the verb
+  return exhibits;
 }
 
 CLI::App* add_displays(CLI::App& app, cli::DisplaysOptions& o) {
@@ -211,6 +238,19 @@ CLI::App* add_visits(CLI::App& app, cli::VisitsOptions& o) {
   return visits;
 }
 
+CLI::App* add_merge(CLI::App& app, std::vector<std::string>& files, std::string& output) {
+  CLI::App* merge = app.add_subcommand("merge", "combine several scenarios into one file, and rename names that clash");
+  merge->add_option("files", files, "X3D files, two or more")->required();
+  merge->add_option("-o,--output", output, "the file to write")->required();
+  return merge;
+}
+
+CLI::App* add_studio(CLI::App& app, std::string& file) {
+  CLI::App* studio = app.add_subcommand("studio", "edit a scenario by commands, one JSON object a line, for scripts");
+  studio->add_option("file", file, R"(the X3D file; it changes only on {"do": "save"})")->required();
+  return studio;
+}
+
 void add_doctor(CLI::App& app, cli::DoctorOptions& o) {
   CLI::App* doctor = app.add_subcommand("doctor", "check whether this machine can hold 1 kHz and servers keep up");
   doctor->add_flag("--json", o.json, "as JSON");
@@ -244,6 +284,8 @@ int add_and_parse(int argc, char** argv) {
   auto* record_command = add_record(app, record);
   cli::DisplaysOptions displays;
   auto* displays_command = add_displays(app, displays);
+  cli::ExhibitsOptions exhibits;
+  auto* exhibits_command = add_exhibits(app, exhibits);
   cli::HeadOptions head;
   auto* head_command = add_head(app, head);
   cli::ContentOptions content;
@@ -257,10 +299,9 @@ int add_and_parse(int argc, char** argv) {
   check_command->add_flag("--json", check_json, "as JSON");
   std::vector<std::string> merge_files;
   std::string merged_file;
-  auto* merge_command =
-      app.add_subcommand("merge", "combine several scenarios into one file, and rename names that clash");
-  merge_command->add_option("files", merge_files, "X3D files, two or more")->required();
-  merge_command->add_option("-o,--output", merged_file, "the file to write")->required();
+  auto* merge_command = add_merge(app, merge_files, merged_file);
+  std::string studio_file;
+  auto* studio_command = add_studio(app, studio_file);
   auto* reference_command = app.add_subcommand("reference", "print the manual of the scenario format, as Markdown");
   cli::DoctorOptions doctor;
   add_doctor(app, doctor);
@@ -276,6 +317,10 @@ int add_and_parse(int argc, char** argv) {
     const auto verbs = displays_command->get_subcommands();
     return cli::run_displays(verbs.empty() ? "" : verbs.front()->get_name(), displays);
   }
+  if (*exhibits_command) {
+    const auto verbs = exhibits_command->get_subcommands();
+    return cli::run_exhibits(verbs.empty() ? "" : verbs.front()->get_name(), exhibits);
+  }
   if (*head_command) return cli::run_head(head, std::cin, std::cerr);
   if (*content_command)
     return cli::run_content(content_command->get_subcommands().front()->get_name(), content, std::cout, std::cerr);
@@ -287,6 +332,7 @@ int add_and_parse(int argc, char** argv) {
     return scenario::run_check(files, std::cout,
                                check_json ? scenario::CheckFormat::json : scenario::CheckFormat::text);
   if (*merge_command) return authoring::run_merge(merge_files, merged_file, std::cout);
+  if (*studio_command) return cli::run_studio(studio_file, std::cin, std::cout, std::cerr);
   if (*reference_command) {
     std::cout << authoring::reference_page();
     return 0;

@@ -65,7 +65,7 @@ Expected<Accounts> Accounts::open(const std::filesystem::path& folder) {
   Accounts made(folder / "accounts.json");
   const auto bytes = read_whole(made.file_, kMostBytes);
   if (bytes) {
-    auto read = parse_accounts({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    auto read = parse_accounts(as_text(*bytes));
     if (!read) return tl::unexpected(read.error().in(made.file_.string()));
     made.accounts_ = std::move(*read);
     return made;

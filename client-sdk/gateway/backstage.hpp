@@ -1,6 +1,7 @@
 // What hubs and browsers use of the gateway.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "client-sdk/gateway/kiosk_tokens.hpp"
 #include "client-sdk/gateway/known_content.hpp"
+#include "server/base/clock.hpp"
 #include "server/base/worker.hpp"
 #include <mechane/client/displays.hpp>
 
@@ -17,15 +19,24 @@ struct Backstage {
   std::uint32_t domain = 0;
   Worker& slow;                                     ///< opens and ends what talks on the network: both can take a while
   std::function<void(std::function<void()>)> post;  ///< runs a job on the loop's thread
-  client::DisplaySeats& seats;
+  std::shared_ptr<client::DisplaySeats> seats;
   KnownContent& content;
   KioskTokens& tokens;
 
-  /// Ends something on the slow thread.
+  /// Ends something on the slow thread, before the seats' maker. Of what is shared: this owner's part.
+  template <class Thing>
+  void end_slowly(std::shared_ptr<Thing> thing) const {
+    if (thing) slow.give([shared = std::move(thing), maker = seats]() mutable { shared.reset(); });
+  }
   template <class Thing>
   void end_slowly(std::unique_ptr<Thing> thing) const {
-    if (thing) slow.give([shared = std::shared_ptr<Thing>(std::move(thing))]() mutable { shared.reset(); });
+    end_slowly(std::shared_ptr<Thing>(std::move(thing)));
   }
 };
+
+/// This moment, as the loop's thread counts time.
+[[nodiscard]] inline TimePoint time_now() {
+  return std::chrono::steady_clock::now();
+}
 
 }  // namespace mechane::gateway

@@ -18,10 +18,6 @@ constexpr std::size_t kMissingTold = 8;
 /// A page in the background reports nothing.
 constexpr Duration kStatusOld = std::chrono::seconds(5);
 
-TimePoint time_now() {
-  return std::chrono::steady_clock::now();
-}
-
 client::DisplaySettings settings_of_browser() {
   client::DisplaySettings settings;
   settings.attract = false;  // a browser has no recorded visit to show
@@ -60,7 +56,7 @@ void Browser::opened(std::shared_ptr<Socket> socket) {
 void Browser::sit_down() {
   const Backstage& backstage = hub_->backstage();
   backstage.slow.give([kiosk = hub_->kiosk(), display = display_, backstage, weak = weak_from_this()] {
-    auto seat = backstage.seats.add(kiosk, display);
+    auto seat = backstage.seats->add(kiosk, display);
     if (!seat) return log::error(seat.error());
     backstage.post([backstage, weak, made = std::make_shared<std::unique_ptr<client::DisplaySeat>>(std::move(*seat))] {
       if (const auto self = weak.lock()) return void(self->seat_ = std::move(*made));

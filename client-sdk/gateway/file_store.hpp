@@ -1,5 +1,5 @@
 // Files for browsers: of the web app, of exhibits, and meshes by the hash of their content. Read once, then kept in memory up
-// to a limit.
+// to a limit. Browsers read glTF alone: other mesh files that are wanted by their hash are given as .glb, without images.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "client-sdk/gateway/http_types.hpp"
 
@@ -34,13 +35,13 @@ class FileStore {
  private:
   struct Kept {
     std::filesystem::file_time_type changed;
-    std::uintmax_t size = 0;
+    std::uintmax_t size = 0;  ///< of the file
     std::shared_ptr<const std::string> bytes;
-    std::string hash;
+    std::string hash;  ///< of the file
     std::uint64_t used = 0;
   };
-  [[nodiscard]] Expected<Kept> read(const std::filesystem::path& file);
-  std::map<std::filesystem::path, Kept> kept_;
+  [[nodiscard]] Expected<Kept> read(const std::filesystem::path& file, bool as_glb);
+  std::map<std::pair<std::filesystem::path, bool>, Kept> kept_;  ///< of a file as it is, or as .glb
   std::uintmax_t kept_bytes_ = 0;
   std::uint64_t uses_ = 0;
 };

@@ -66,6 +66,10 @@ void print_addresses(GatewaySite& site, const std::string& origin, const std::st
 Expected<void> run_gateway(GatewayOptions options) {
   for (const std::string& kiosk : options.kiosks)
     if (auto named = proto::check_name(kiosk, "kiosk"); !named) return named;
+  client::DisplaySettings unused;
+  if (auto address = client::apply({"phone-address", options.phones}, unused); !address)
+    return fail(ErrorCode::invalid_value, "'" + options.phones + "' is not an address for phones", "--phones",
+                "write https://HOST:PORT, without a path, in 63 characters at most");
   if (auto ready = start_secrets(); !ready) return ready;
   if (auto made = make_state_folder(options.state); !made) return made;
   if (auto chosen = choose_tls(options); !chosen) return chosen;
@@ -80,7 +84,10 @@ Expected<void> run_gateway(GatewayOptions options) {
   if (!seats) return tl::unexpected(seats.error());
   auto watch = client::DisplayWatch::open(options.domain);
   if (!watch) return tl::unexpected(watch.error());
-  GatewaySite site(options, **server, std::move(*accounts), std::move(*operations), **seats, **watch);
+  auto exhibits = client::ExhibitWatch::open(options.domain);
+  if (!exhibits) return tl::unexpected(exhibits.error());
+  GatewaySite site(options, **server, std::move(*accounts), std::move(*operations), std::move(*seats), **watch,
+                   **exhibits);
   (*server)->every(kTick, [&site] { site.tick(); });
   print_addresses(site, origin_of(options, (*server)->port()), first_password);
   (*server)->run(site);

@@ -42,6 +42,7 @@ struct HttpAnswer {
   std::size_t from = 0;  ///< the part of the body that is sent
   std::size_t size = 0;
   std::vector<std::pair<std::string, std::string>> headers{};
+  bool framed = false;  ///< pages of this gateway may show it in a frame
 };
 
 [[nodiscard]] HttpAnswer answer_with(std::string body, std::string content_type, unsigned status = 200);
@@ -85,6 +86,8 @@ class Site {
   virtual ~Site() = default;
   /// `done` is called once, on the loop's thread, now or later.
   virtual void answer(HttpRequest request, Done done) = 0;
+  /// How many bytes the body of a request may have, whose header has come; 0: as many as usual.
+  [[nodiscard]] virtual std::size_t longest_body(const HttpRequest& /*header*/) { return 0; }
   /// Somebody asks for a WebSocket.
   [[nodiscard]] virtual std::variant<HttpAnswer, std::shared_ptr<SocketUser>> join(const HttpRequest& request) = 0;
 };

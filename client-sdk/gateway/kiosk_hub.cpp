@@ -61,6 +61,11 @@ void KioskHub::leave(const Browser& browser) {
   std::erase_if(browsers_, [&](const auto& one) { return one.get() == &browser; });
 }
 
+void KioskHub::part(const std::string& reason, const std::string& remedy) {
+  for (const auto& browser : browsers_)
+    browser->part(reason, remedy);
+}
+
 pointer::PointerWorld KioskHub::world() const {
   static const std::vector<std::string> kNone;
   return {frame(), objects_, presentation_.get(), status_ ? status_->enabled_agents : kNone};

@@ -28,6 +28,8 @@ class KioskHub : public std::enable_shared_from_this<KioskHub> {
   void open();
   void join(const std::shared_ptr<Browser>& browser);
   void leave(const Browser& browser);
+  /// All browsers leave, and are told why.
+  void part(const std::string& reason, const std::string& remedy);
   /// Sends what is new. Call it two hundred times a second.
   void tick(TimePoint now);
 

@@ -36,6 +36,11 @@ bool KioskTokens::opens_any(const std::string& token, TimePoint now) const {
   return valid(token, now) != nullptr;
 }
 
+void KioskTokens::end(const std::string& kiosk) {
+  std::erase_if(tokens_, [&](const auto& entry) { return entry.second.kiosk == kiosk; });
+  current_.erase(kiosk);
+}
+
 void KioskTokens::use(const std::string& token, TimePoint now) {
   if (valid(token, now) != nullptr) tokens_[token].used = now;
 }

@@ -23,6 +23,8 @@ class KioskTokens {
   [[nodiscard]] bool opens(const std::string& token, const std::string& kiosk, TimePoint now) const;
   /// Whether it opens any: for mesh files.
   [[nodiscard]] bool opens_any(const std::string& token, TimePoint now) const;
+  /// None opens this kiosk any more.
+  void end(const std::string& kiosk);
   /// Somebody joined or touched with it.
   void use(const std::string& token, TimePoint now);
 

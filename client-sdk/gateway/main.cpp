@@ -28,10 +28,21 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--app", o.app, "folder of the built web app")->capture_default_str();
   app.add_option("--state", o.state, "folder of accounts, certificate and audit log")->capture_default_str();
   app.add_option("--records", o.records, "the server's folder of records, to show visits");
+  app.add_option("--exhibit-key", o.exhibit_key,
+                 "the server's key file, for operators who change exhibits; without: exhibits.key in --records");
+  app.add_option("--scenarios", o.scenarios,
+                 "the server's folder of exhibits, to play visits back and to edit and publish them");
+  app.add_option("--playback-domain", o.playback_domain,
+                 "first of two DDS domains, with no server in them, for playing back")
+      ->check(CLI::Range(0, 229))
+      ->capture_default_str();
   auto* certificate = app.add_option("--tls-cert", o.web.certificate, "the certificate, PEM; without: one made here");
   auto* key = app.add_option("--tls-key", o.web.key, "its key, PEM")->needs(certificate);
   certificate->needs(key);
   app.add_flag("--plain", o.plain, "without TLS beyond this machine, too: passwords and tokens can then be overheard");
+  app.add_option("--phones", o.phones,
+                 "native displays show a code that leads phones to this gateway, by this address as phones reach it: "
+                 "https://HOST:PORT");
   app.add_option("--token-idle", a.token_idle_minutes, "minutes without a touch after which a kiosk's address ends")
       ->check(CLI::Range(0.05, 1440.0))
       ->capture_default_str();
@@ -64,6 +75,8 @@ int main(int argc, char** argv) {
   auto listen = gateway::parse_listen_address(a.listen);
   if (!listen) return log::error(listen.error()), 2;
   a.options.web.listen = *listen;
+  if (a.options.exhibit_key.empty() && !a.options.records.empty())
+    a.options.exhibit_key = a.options.records / "exhibits.key";
   a.options.token_idle = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(60 * a.token_idle_minutes));
   if (auto ran = gateway::run_gateway(std::move(a.options)); !ran) return log::error(ran.error()), 1;
   return 0;

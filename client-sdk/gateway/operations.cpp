@@ -261,7 +261,7 @@ Expected<Operations> Operations::open(const std::filesystem::path& folder) {
   const auto bytes = read_whole(made.file_, kMostStoreBytes);
   if (!bytes && bytes.error().code == ErrorCode::not_found) return made;
   if (!bytes) return tl::unexpected(bytes.error());
-  auto state = parse_operations({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  auto state = parse_operations(as_text(*bytes));
   if (!state) return tl::unexpected(state.error().in(made.file_.string()));
   made.state_ = std::move(*state);
   return made;

@@ -4,10 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/exhibit_api.hpp"
 #include "client-sdk/gateway/operations_api.hpp"
 #include "client-sdk/gateway/request_path.hpp"
 #include "client-sdk/gateway/secrets.hpp"
 #include "client-sdk/gateway/security_headers.hpp"
+#include "client-sdk/gateway/studio_api.hpp"
 #include "client-sdk/gateway/visits_api.hpp"
 #include "server/log/log.hpp"
 #include <mechane/proto/identity.hpp>
@@ -276,7 +278,7 @@ void open_at_kiosk(GatewaySite& site, const std::string& kiosk, const std::strin
   if (!hub) return done(refusal(503, "too many kiosks are in use", "try again later"));
   const auto sent = std::make_shared<std::uint64_t>(0);
   const auto look = [hub, scenario, sent]() -> std::optional<HttpAnswer> {
-    hub->use(std::chrono::steady_clock::now());
+    hub->use(time_now());
     if (hub->link() != client::LinkState::joined || hub->status() == nullptr) return std::nullopt;
     const auto server = hub->client()->server_status();
     if (!server || server->scenarios.empty()) return std::nullopt;
@@ -310,16 +312,19 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
   if (path == "/api/server") return answer_server(site, done), true;
   if (path == "/api/operations") return done(operations_answer(site)), true;
   if (answer_visits_get(site, request, done)) return true;
-  const bool for_operators = path == "/api/audit" || path == "/api/accounts";
+  if (answer_studio_get(site, request, done)) return true;
+  const bool for_operators = path == "/api/audit" || path == "/api/accounts" || path == "/api/exhibits";
   if (!for_operators) return false;
   if (!operates) return done(not_allowed("operator")), true;
   if (path == "/api/accounts") return done(json_answer(accounts_json(site.accounts()))), true;
+  if (answer_exhibits_get(site, request, done)) return true;
   site.on_disk([file = site.audit().file()] { return audit_answer(file); }, done);
   return true;
 }
 
 bool answer_api_post(GatewaySite& site, const Session& session, const HttpRequest& request, const Done& done) {
   if (answer_visits_post(site, session, request, done)) return true;
+  if (answer_studio_post(site, session, request, done)) return true;
   if (session.role != Role::manager) return done(not_allowed("operator")), true;
   const ApiJson json = ApiJson::parse(request.body, nullptr, false);
   if (!json.is_object()) return done(refusal(400, "this request is not a JSON object", "send an object")), true;
@@ -336,6 +341,8 @@ bool answer_api_post(GatewaySite& site, const Session& session, const HttpReques
     site.sessions().end_of(user);
     return done(json_answer(ApiJson::object())), true;
   }
+  const bool now = json.contains("now") && json["now"].is_boolean() && json["now"].get<bool>();
+  if (answer_exhibits_post(site, request, now, done)) return true;
   if (answer_operations_post(site, request, done)) return true;
   constexpr std::string_view kKiosks = "/api/kiosks/";
   if (!request.path.starts_with(kKiosks)) return false;

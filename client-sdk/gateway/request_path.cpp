@@ -150,7 +150,7 @@ std::optional<std::string_view> content_type_of(const std::filesystem::path& fil
   return found->second;
 }
 
-Expected<std::filesystem::path> file_within(const std::filesystem::path& folder, std::string_view path) {
+Expected<std::filesystem::path> file_within(const std::filesystem::path& folder, std::string_view path, bool hidden) {
   const auto leaves = [path] {
     return fail(ErrorCode::invalid_value, "this path leads out of its folder", std::string(path),
                 "ask for a file of the folder, without '..' and hidden names");
@@ -159,8 +159,8 @@ Expected<std::filesystem::path> file_within(const std::filesystem::path& folder,
   for (std::size_t from = 0; from <= path.size();) {
     const std::size_t end = std::min(path.find('/', from), path.size());
     const std::string_view name = path.substr(from, end - from);
-    if (name.empty() || name.front() == '.' || name.find('\\') != std::string_view::npos || name.size() > 255)
-      return leaves();
+    const bool dots = hidden ? name == "." || name == ".." : name.starts_with('.');
+    if (name.empty() || dots || name.find('\\') != std::string_view::npos || name.size() > 255) return leaves();
     file /= name;
     from = end + 1;
   }

@@ -38,7 +38,9 @@ struct ByteRange {
 [[nodiscard]] std::optional<std::string_view> content_type_of(const std::filesystem::path& file);
 
 /// A file inside a folder, by a path with '/' that somebody else gave: no '..', no empty or hidden part, no backslash, and no symbolic
-/// link out of the folder. Reads the disk. Errors: not_found; invalid_value for a path that tries to leave the folder.
-[[nodiscard]] Expected<std::filesystem::path> file_within(const std::filesystem::path& folder, std::string_view path);
+/// link out of the folder. Reads the disk. `hidden`: parts may begin with a dot. Errors: not_found; invalid_value for a path that tries to
+/// leave the folder.
+[[nodiscard]] Expected<std::filesystem::path> file_within(const std::filesystem::path& folder, std::string_view path,
+                                                          bool hidden = false);
 
 }  // namespace mechane::gateway

@@ -17,16 +17,17 @@ bool is_host(std::string_view host) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host) {
+std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host, bool framed) {
   // Older browsers do not count a WebSocket of the same host as 'self'.
   const std::string socket = is_host(host) ? (secure ? " wss://" : " ws://") + std::string(host) : std::string();
   return {
       {"Content-Security-Policy",
        "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
        "media-src 'self' blob:; worker-src 'self' blob:; connect-src 'self' blob:" +
-           socket + "; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"},
+           socket + "; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors " +
+           (framed ? "'self'" : "'none'")},
       {"X-Content-Type-Options", "nosniff"},
-      {"X-Frame-Options", "DENY"},
+      {"X-Frame-Options", framed ? "SAMEORIGIN" : "DENY"},
       {"Referrer-Policy", "no-referrer"},  // an address has a token in it
       {"Cross-Origin-Opener-Policy", "same-origin"},
       {"Cross-Origin-Resource-Policy", "same-origin"},

@@ -8,8 +8,10 @@
 
 namespace mechane::gateway {
 
-/// `host`: the request's Host header, as the browser sent it; what cannot be a host's name is left out.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host);
+/// `host`: the request's Host header, as the browser sent it; what cannot be a host's name is left out. `framed`: pages of this host may
+/// show it in a frame.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host,
+                                                                                bool framed);
 
 /// Whether a request with this Origin comes from a page of this host: both from the browser. An empty origin: no.
 [[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host, bool secure);

@@ -4,11 +4,17 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "client-sdk/gateway/operator_api.hpp"
 #include "client-sdk/gateway/secrets.hpp"
 #include "client-sdk/gateway/security_headers.hpp"
+#include "client-sdk/gateway/studio_api.hpp"
+#include "client-sdk/studio/draft_files.hpp"
+#include "client-sdk/studio/preview_file.hpp"
+#include "server/base/program_folder.hpp"
 #include "server/log/log.hpp"
+#include <mechane/proto/identity.hpp>
 #include <mechane/proto/names.hpp>
 
 namespace mechane::gateway {
@@ -21,10 +27,7 @@ constexpr std::size_t kMostHubs = 32;
 constexpr std::size_t kMostWaiting = 64;
 constexpr Duration kHubStays = std::chrono::seconds(10);
 constexpr Duration kLookAgain = std::chrono::milliseconds(20);
-
-TimePoint site_now() {
-  return std::chrono::steady_clock::now();
-}
+constexpr Duration kTellCodes = std::chrono::seconds(15);  // displays that have just started wait so long
 
 HttpAnswer nothing_here() {
   return refusal(404, "there is nothing at this address", "go to /console, or scan a kiosk's code");
@@ -64,36 +67,49 @@ SiteJson of_session(const Session& session) {
 }  // namespace
 
 GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accounts accounts, Operations operations,
-                         client::DisplaySeats& seats, client::DisplayWatch& watch)
+                         std::shared_ptr<client::DisplaySeats> seats, client::DisplayWatch& watch,
+                         client::ExhibitWatch& exhibits)
     : options_(options),
       server_(server),
       watch_(watch),
+      exhibits_(exhibits),
       accounts_(std::move(accounts)),
       operations_(std::move(operations)),
       tokens_(options.token_idle),
       audit_(options.state),
       visits_(options.records, options.state, [&server](std::function<void()> job) { server.post(std::move(job)); }),
-      backstage_{options.domain, slow_,    [&server](std::function<void()> job) { server.post(std::move(job)); },
-                 seats,          content_, tokens_} {}
+      studio_(options.scenarios, options.state, [&server](std::function<void()> job) { server.post(std::move(job)); }),
+      backstage_{options.domain,   slow_,    [&server](std::function<void()> job) { server.post(std::move(job)); },
+                 std::move(seats), content_, tokens_},
+      previews_(
+          {program_folder() / "mechane-server", options.scenarios, [this](const auto& file) { remove_preview(file); }},
+          backstage_) {}
 
 GatewaySite::~GatewaySite() {
   waiting_.clear();  // these hold hubs, too
   hubs_.clear();     // while the slow thread is there
+  playbacks_ = {};
 }
 
 const Session* GatewaySite::session_of(const HttpRequest& request) {
   const std::string cookie = session_cookie(request.header("cookie"));
-  return cookie.empty() ? nullptr : sessions_.find(cookie, site_now());
+  return cookie.empty() ? nullptr : sessions_.find(cookie, time_now());
 }
 
 bool GatewaySite::may_read(const HttpRequest& request) {
-  return tokens_.opens_any(request.query_value("token"), site_now()) || session_of(request) != nullptr;
+  return tokens_.opens_any(request.query_value("token"), time_now()) || session_of(request) != nullptr;
 }
 
 void GatewaySite::answer(HttpRequest request, Done done) {
   if (request.method == Method::post) return answer_post(request, done);
   if (request.method == Method::other) return done(refusal(405, "this method is not served", "use GET, HEAD or POST"));
   answer_get(request, done);
+}
+
+std::size_t GatewaySite::longest_body(const HttpRequest& header) {
+  if (header.method != Method::post || !is_studio_upload(header.path)) return 0;
+  const Session* session = session_of(header);
+  return session != nullptr && session->role != Role::visitor ? studio::DraftFiles::kMostBytes : 0;
 }
 
 void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
@@ -114,7 +130,8 @@ void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
   if (const auto file = after(request.path, "/app/"))
     return serve_file(request, {options_.app, *file, "", file->starts_with("assets/")}, done);
   const bool page = request.path == "/" || request.path == "/console" || request.path.starts_with("/console/") ||
-                    request.path.starts_with("/kiosk/");
+                    request.path == "/studio" || request.path.starts_with("/studio/") ||
+                    request.path.starts_with("/kiosk/") || request.path.starts_with("/playback/");
   if (!page) return done(nothing_here());
   if (const auto kiosk = after(request.path, "/kiosk/");
       kiosk && session_of(request) == nullptr && in_maintenance(operations_.state(), *kiosk, wall_now()))
@@ -122,7 +139,27 @@ void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
   std::error_code unknown;
   if (!std::filesystem::exists(options_.app / "index.html", unknown))
     return done(refusal(503, "the web app is not built", "build it, or name its folder with --app"));
-  serve_file(request, {options_.app, "index.html"}, done);
+  serve_file(request, {options_.app, "index.html"}, [done, framed = is_framed(request)](HttpAnswer answer) {
+    answer.framed = framed;
+    done(std::move(answer));
+  });
+}
+
+bool GatewaySite::is_framed(const HttpRequest& request) {
+  const auto kiosk = after(request.path, "/kiosk/");
+  return kiosk && previews_.hub_of(*kiosk) != nullptr &&
+         tokens_.opens(request.query_value("token"), *kiosk, time_now());
+}
+
+/// Where the studio's thread is too busy, at once.
+void GatewaySite::remove_preview(const std::filesystem::path& file) {
+  const auto remove = [file](studio::Shelf&) {
+    studio::remove_preview(file);
+    return fresh_answer("{}");
+  };
+  studio_.give(remove, [file](const HttpAnswer& answer) {
+    if (answer.status != 200) studio::remove_preview(file);
+  });
 }
 
 void GatewaySite::on_disk(std::function<HttpAnswer()> work, Done done) {
@@ -164,8 +201,10 @@ void GatewaySite::serve_exhibit(const HttpRequest& request, const std::string& r
 void GatewaySite::answer_post(const HttpRequest& request, const Done& done) {
   if (!is_own_origin(request.header("origin"), request.header("host"), request.secure))
     return done(refusal(403, "this request comes from another page", "use the gateway's own pages"));
-  if (!request.header("content-type").starts_with("application/json"))
-    return done(refusal(415, "this request is not JSON", "send application/json"));
+  const bool upload = is_studio_upload(request.path);
+  if (!request.header("content-type").starts_with(upload ? "application/octet-stream" : "application/json"))
+    return done(upload ? refusal(415, "this request is not a file's bytes", "send application/octet-stream")
+                       : refusal(415, "this request is not JSON", "send application/json"));
   if (request.path == "/api/sign-in") return sign_in(request, done);
   const Session* session = session_of(request);
   if (session == nullptr) return done(not_signed_in());
@@ -200,7 +239,7 @@ void GatewaySite::sign_in(const HttpRequest& request, const Done& done) {
   if (!right) return done(refusal(400, "a user and a password are needed", "fill in both fields"));
   const std::string user = json["user"], password = json["password"];
   const std::string of_user = "user " + user.substr(0, 31), of_address = "address " + request.address;
-  const auto wait = std::max(guard_.wait_of(of_user, site_now()), guard_.wait_of(of_address, site_now()));
+  const auto wait = std::max(guard_.wait_of(of_user, time_now()), guard_.wait_of(of_address, time_now()));
   if (wait) {
     const auto seconds = static_cast<int>(to_seconds(*wait)) + 1;
     HttpAnswer answer = refusal(429, "too many failed sign-ins", fmt::format("try again in {} s", seconds));
@@ -222,8 +261,8 @@ void GatewaySite::sign_in(const HttpRequest& request, const Done& done) {
         guard_.succeeded(of_address);
         return signed_in(request, user, role, done);
       }
-      guard_.failed(of_user, site_now());
-      guard_.failed(of_address, site_now());
+      guard_.failed(of_user, time_now());
+      guard_.failed(of_address, time_now());
       (void)audit_.add(user.substr(0, 31), request.address, "sign-in failed", "");
       done(refusal(401, "user or password is wrong", "check both; an operator can give a new password"));
     };
@@ -232,8 +271,8 @@ void GatewaySite::sign_in(const HttpRequest& request, const Done& done) {
 }
 
 void GatewaySite::signed_in(const HttpRequest& request, const std::string& user, Role role, const Done& done) {
-  const std::string cookie = sessions_.begin(user, role, site_now());
-  const Session* session = sessions_.find(cookie, site_now());
+  const std::string cookie = sessions_.begin(user, role, time_now());
+  const Session* session = sessions_.find(cookie, time_now());
   if (!note(*session, request, "sign-in", "")) {
     sessions_.end(cookie);
     return done(refusal(500, "the audit log cannot be written", "see the gateway's log"));
@@ -261,15 +300,16 @@ std::variant<HttpAnswer, std::shared_ptr<SocketUser>> GatewaySite::join(const Ht
   if (!kiosk) return nothing_here();
   if (auto named = proto::check_name(*kiosk, "kiosk"); !named) return refusal(named.error());
   const std::string token = request.query_value("token");
-  const bool by_token = tokens_.opens(token, *kiosk, site_now());
+  const bool by_token = tokens_.opens(token, *kiosk, time_now());
   if (!by_token && session_of(request) == nullptr) return no_way_in();
   if (!by_token && !knows_kiosk(*kiosk)) return refusal(404, "there is no kiosk of this name", "see /console");
   // A tablet that is signed in shows the sign; nobody else comes in meanwhile.
   if (by_token && session_of(request) == nullptr && in_maintenance(operations_.state(), *kiosk, wall_now()))
     return refusal(503, "this kiosk is under maintenance", "come back later");
-  const auto hub = hub_of(*kiosk);
+  const auto preview = previews_.hub_of(*kiosk);
+  const auto hub = preview ? preview : hub_of(*kiosk);
   if (!hub) return refusal(503, "too many kiosks are in use", "try again later");
-  if (by_token) tokens_.use(token, site_now());
+  if (by_token) tokens_.use(token, time_now());
   return std::static_pointer_cast<SocketUser>(std::make_shared<Browser>(hub, by_token ? token : std::string()));
 }
 
@@ -288,32 +328,50 @@ bool GatewaySite::knows_kiosk(const std::string& kiosk) {
 
 std::shared_ptr<KioskHub> GatewaySite::hub_of(const std::string& kiosk) {
   if (const auto known = hubs_.find(kiosk); known != hubs_.end()) {
-    known->second->use(site_now());
+    known->second->use(time_now());
     return known->second;
   }
   if (hubs_.size() >= kMostHubs) return nullptr;
   const auto hub = std::make_shared<KioskHub>(kiosk, backstage_);
-  hub->use(site_now());
+  hub->use(time_now());
   hub->open();
   hubs_[kiosk] = hub;
   return hub;
 }
 
 std::string GatewaySite::address_of(const std::string& kiosk, const std::string& origin) {
-  return origin + "/kiosk/" + kiosk + "?token=" + tokens_.token_for(kiosk, site_now());
+  return origin + "/kiosk/" + kiosk + "?token=" + tokens_.token_for(kiosk, time_now());
 }
 
 void GatewaySite::wait_for(std::function<std::optional<HttpAnswer>()> look, Duration longest, HttpAnswer late,
                            Done done) {
   if (waiting_.size() >= kMostWaiting)
     return done(refusal(503, "too many requests are waiting", "try again in a moment"));
-  waiting_.push_back({std::move(look), site_now() + longest, std::move(late), std::move(done)});
+  waiting_.push_back({std::move(look), time_now() + longest, std::move(late), std::move(done)});
+}
+
+/// Native displays forget a code that is not told again for a minute; none is shown of a gateway that has ended. This
+/// gateway's browsers are told nothing.
+void GatewaySite::tell_codes() {
+  for (const client::DisplayStatus& display : watch_.displays()) {
+    if (display.process_id == static_cast<std::uint32_t>(::getpid()) && display.host == proto::host_name()) continue;
+    const std::vector<client::DisplaySetting> code{{"phone-address", options_.phones},
+                                                   {"phone-code", tokens_.token_for(display.kiosk, time_now())}};
+    if (auto told = watch_.request(display.kiosk, display.display, {.settings = code}); !told)
+      log::warning(told.error().to_string());
+  }
 }
 
 void GatewaySite::tick() {
-  const TimePoint now = site_now();
+  const TimePoint now = time_now();
+  if (!options_.phones.empty() && now >= next_codes_) {
+    next_codes_ = now + std::min<Duration>(kTellCodes, options_.token_idle / 2);
+    tell_codes();
+  }
   for (const auto& [kiosk, hub] : hubs_)
     hub->tick(now);
+  playbacks_.tick(now);
+  previews_.tick(now);
   if (now < next_look_) return;
   next_look_ = now + kLookAgain;
   keeper_.tick(*this, wall_now(), now);

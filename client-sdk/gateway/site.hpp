@@ -17,18 +17,23 @@
 #include "client-sdk/gateway/kiosk_hub.hpp"
 #include "client-sdk/gateway/kiosk_keeper.hpp"
 #include "client-sdk/gateway/operations.hpp"
+#include "client-sdk/gateway/playback.hpp"
+#include "client-sdk/gateway/preview_desk.hpp"
 #include "client-sdk/gateway/sessions.hpp"
+#include "client-sdk/gateway/studio_desk.hpp"
 #include "client-sdk/gateway/visits_desk.hpp"
+#include <mechane/client/exhibits.hpp>
 
 namespace mechane::gateway {
 
 class GatewaySite final : public Site {
  public:
   GatewaySite(const GatewayOptions& options, WebServer& server, Accounts accounts, Operations operations,
-              client::DisplaySeats& seats, client::DisplayWatch& watch);
+              std::shared_ptr<client::DisplaySeats> seats, client::DisplayWatch& watch, client::ExhibitWatch& exhibits);
   ~GatewaySite() override;
 
   void answer(HttpRequest request, Done done) override;
+  [[nodiscard]] std::size_t longest_body(const HttpRequest& header) override;
   [[nodiscard]] std::variant<HttpAnswer, std::shared_ptr<SocketUser>> join(const HttpRequest& request) override;
   /// Call it two hundred times a second.
   void tick();
@@ -44,6 +49,7 @@ class GatewaySite final : public Site {
   /// "http://127.0.0.1:8480/kiosk/kiosk-1?token=...", where `origin` is its first part.
   [[nodiscard]] std::string address_of(const std::string& kiosk, const std::string& origin);
   [[nodiscard]] client::DisplayWatch& watch() { return watch_; }
+  [[nodiscard]] client::ExhibitWatch& exhibits() { return exhibits_; }
   [[nodiscard]] const GatewayOptions& options() const { return options_; }
   [[nodiscard]] const AuditLog& audit() const { return audit_; }
   [[nodiscard]] WebServer::Traffic traffic() const { return server_.traffic(); }
@@ -60,6 +66,10 @@ class GatewaySite final : public Site {
   [[nodiscard]] Operations& operations() { return operations_; }
   [[nodiscard]] Sessions& sessions() { return sessions_; }
   [[nodiscard]] VisitsDesk& visits() { return visits_; }
+  [[nodiscard]] StudioDesk& studio() { return studio_; }
+  [[nodiscard]] PlaybackShelf& playbacks() { return playbacks_; }
+  [[nodiscard]] PreviewDesk& previews() { return previews_; }
+  [[nodiscard]] const Backstage& backstage() const { return backstage_; }
   /// Hashes or checks a password on a thread of its own. False: too many are waiting.
   [[nodiscard]] bool on_passwords(std::function<std::function<void()>()> work);
 
@@ -70,6 +80,10 @@ class GatewaySite final : public Site {
     HttpAnswer late;
     Done done;
   };
+  void tell_codes();
+  void remove_preview(const std::filesystem::path& file);
+  /// Whether the page is a preview's, asked for by whom the studio gave its address: the studio shows it in a frame.
+  [[nodiscard]] bool is_framed(const HttpRequest& request);
   void answer_get(const HttpRequest& request, const Done& done);
   void answer_post(const HttpRequest& request, const Done& done);
   void serve_file(const HttpRequest& request, FileWanted wanted, const Done& done);
@@ -83,6 +97,7 @@ class GatewaySite final : public Site {
   const GatewayOptions options_;
   WebServer& server_;
   client::DisplayWatch& watch_;
+  client::ExhibitWatch& exhibits_;
   Accounts accounts_;
   Operations operations_;
   KioskKeeper keeper_;
@@ -92,16 +107,19 @@ class GatewaySite final : public Site {
   KnownContent content_;
   AuditLog audit_;
   VisitsDesk visits_;
+  StudioDesk studio_;
   FileStore files_;  // used by the disk's thread
   std::map<std::string, std::shared_ptr<KioskHub>> hubs_;
   std::deque<Waiting> waiting_;
-  TimePoint next_look_;
+  TimePoint next_look_, next_codes_;
   std::size_t passwords_waiting_ = 0;
   std::size_t disk_waiting_ = 0;
   Worker slow_{"gateway-links"};
   Worker disk_{"gateway-disk"};
   Worker password_thread_{"gateway-words"};
   const Backstage backstage_;
+  PlaybackShelf playbacks_;
+  PreviewDesk previews_;
 };
 
 }  // namespace mechane::gateway

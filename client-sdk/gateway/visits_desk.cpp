@@ -74,6 +74,21 @@ void VisitsDesk::read(const VisitsQuery& query, std::function<HttpAnswer(const V
       std::move(done));
 }
 
+void VisitsDesk::find(const std::string& number, std::function<void(Expected<VisitRecord>)> then) {
+  if (waiting_ >= kMostVisitsJobs)
+    return then(fail(ErrorCode::busy, "the gateway is busy reading visits", {}, "try again in a moment"));
+  ++waiting_;
+  thread_.give([this, number, then = std::move(then)] {
+    auto visit = visit_now(number);
+    const auto written = book();
+    if (visit && written) (*written)->put_into({&*visit, 1});
+    post_([this, then, visit = std::move(visit)] {
+      --waiting_;
+      then(visit);
+    });
+  });
+}
+
 void VisitsDesk::remark(const std::string& number, const visits::RecordedRemark& remark, Site::Done done) {
   if (!visits::is_visit_number(number))
     return done(refusal(404, "this is not the number of a visit", "GET /api/visits lists them"));

@@ -40,6 +40,8 @@ class VisitsDesk {
 
   /// `done` gets what `answer` makes, on the desk's thread, of the visits.
   void read(const VisitsQuery& query, std::function<HttpAnswer(const VisitsFound&)> answer, Site::Done done);
+  /// `then` gets the visit, with all remarks, on the loop's thread. Errors: not_found and unknown_name; busy; those of the file.
+  void find(const std::string& number, std::function<void(Expected<visits::VisitRecord>)> then);
   /// Keeps a remark about a visit; the answer has all of this visit's remarks. `number`: as a browser wrote it.
   void remark(const std::string& number, const visits::RecordedRemark& remark, Site::Done done);
 

@@ -146,4 +146,8 @@ std::string remarks_json(const VisitRecord& record) {
   return dumped({{"visit", record.number}, {"remarks", remark_list(record)}});
 }
 
+std::string playback_json(const VisitRecord& record, std::string_view state, double share, const std::string& trouble) {
+  return dumped({{"state", state}, {"share", share}, {"trouble", trouble}, {"visit", visit_json(record)}});
+}
+
 }  // namespace mechane::gateway

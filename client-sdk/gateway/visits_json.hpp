@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "client-sdk/gateway/visits_desk.hpp"
 
@@ -12,5 +13,8 @@ inline constexpr std::size_t kVisitsTold = 100;
 
 [[nodiscard]] std::string visits_json(const VisitsFound& found);
 [[nodiscard]] std::string remarks_json(const visits::VisitRecord& record);
+/// How far a visit's playback is. `state`: "preparing", "ready" or "failed".
+[[nodiscard]] std::string playback_json(const visits::VisitRecord& record, std::string_view state, double share,
+                                        const std::string& trouble);
 
 }  // namespace mechane::gateway

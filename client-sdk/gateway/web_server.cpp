@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <deque>
+#include <limits>
 #include <list>
 #include <optional>
 #include <set>
@@ -22,9 +23,9 @@
 #include <linux/sockios.h>
 #include <sys/ioctl.h>
 
-#include "client-sdk/gateway/rate_limit.hpp"
 #include "client-sdk/gateway/request_path.hpp"
 #include "client-sdk/gateway/security_headers.hpp"
+#include "client-sdk/gateway/web_hall.hpp"
 #include "server/base/utf8.hpp"
 #include "server/log/log.hpp"
 
@@ -44,6 +45,7 @@ using std::chrono::seconds;
 
 constexpr seconds kRequestWithin{30};       // from one answer to the end of the next request
 constexpr seconds kAnswerWithin{300};       // a large file over a slow network
+constexpr seconds kUploadWithin{300};       // the same from a browser
 constexpr seconds kLingers{2};              // so that a client reads why it was refused
 constexpr std::size_t kMostRefusals = 200;  // that linger at a time
 constexpr seconds kIdleSocket{30};
@@ -55,50 +57,10 @@ TimePoint now() {
   return std::chrono::steady_clock::now();
 }
 
-class LiveSocket {
- public:
-  virtual ~LiveSocket() = default;
-  virtual void end() = 0;
-};
-
-/// What all connections share.
-struct Hall {
-  explicit Hall(WebServerOptions chosen) : options(std::move(chosen)) {}
-  WebServerOptions options;
-  Site* site = nullptr;
-  RateLimits requests{50, 300};
-  std::map<std::string, std::size_t> by_address;
-  WebServer::Traffic traffic;
-  std::size_t refusals = 0;  // that linger now
-  std::set<LiveSocket*> sockets;
-};
-
-/// A place among the connections, as long as it lives.
-class Place {
- public:
-  Place(std::shared_ptr<Hall> hall, std::string address) : hall_(std::move(hall)), address_(std::move(address)) {
-    ++hall_->traffic.connections;
-    ++hall_->by_address[address_];
-  }
-  Place(Place&& other) noexcept = default;
-  Place& operator=(Place&&) = delete;
-  ~Place() {
-    if (!hall_) return;
-    --hall_->traffic.connections;
-    if (--hall_->by_address[address_] == 0) hall_->by_address.erase(address_);
-  }
-  [[nodiscard]] Hall& hall() const { return *hall_; }
-  [[nodiscard]] const std::string& address() const { return address_; }
-
- private:
-  std::shared_ptr<Hall> hall_;
-  std::string address_;
-};
-
 /// Reads what still comes until the other side closes, so that the system does not cut off what it was sent.
 class Lingerer : public std::enable_shared_from_this<Lingerer> {
  public:
-  Lingerer(PlainStream stream, std::shared_ptr<Hall> hall) : stream_(std::move(stream)), hall_(std::move(hall)) {
+  Lingerer(PlainStream stream, std::shared_ptr<WebHall> hall) : stream_(std::move(stream)), hall_(std::move(hall)) {
     ++hall_->refusals;
   }
   Lingerer(const Lingerer&) = delete;
@@ -126,7 +88,7 @@ class Lingerer : public std::enable_shared_from_this<Lingerer> {
     });
   }
   PlainStream stream_;
-  std::shared_ptr<Hall> hall_;
+  std::shared_ptr<WebHall> hall_;
   std::string text_;
   std::array<char, 1024> read_{};
 };
@@ -136,7 +98,7 @@ class SocketConnection final : public Socket,
                                public LiveSocket,
                                public std::enable_shared_from_this<SocketConnection<Stream>> {
  public:
-  SocketConnection(Stream stream, Place place, std::shared_ptr<SocketUser> user)
+  SocketConnection(Stream stream, WebPlace place, std::shared_ptr<SocketUser> user)
       : socket_(std::move(stream)), place_(std::move(place)), user_(std::move(user)) {
     place_.hall().sockets.insert(this);
   }
@@ -151,7 +113,7 @@ class SocketConnection final : public Socket,
     const std::string host(request_[http::field::host]);
     socket_.set_option(websocket::stream_base::decorator([host](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, std::string(kProtocol));
-      for (const auto& [name, value] : security_headers(std::is_same_v<Stream, SecureStream>, host))
+      for (const auto& [name, value] : security_headers(std::is_same_v<Stream, SecureStream>, host, false))
         response.set(name, value);
     }));
     socket_.read_message_max(place_.hall().options.message_bytes);
@@ -262,7 +224,7 @@ class SocketConnection final : public Socket,
   }
 
   websocket::stream<Stream> socket_;
-  Place place_;
+  WebPlace place_;
   std::shared_ptr<SocketUser> user_;
   http::request<http::string_body> request_;
   beast::flat_buffer incoming_;
@@ -295,8 +257,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   static constexpr bool kSecure = std::is_same_v<Stream, SecureStream>;
 
  public:
-  HttpConnection(Stream stream, std::shared_ptr<Hall> hall, std::string address)
-      : stream_(std::move(stream)), hall_(hall), place_(Place(std::move(hall), std::move(address))) {}
+  HttpConnection(Stream stream, std::shared_ptr<WebHall> hall, std::string address)
+      : stream_(std::move(stream)), hall_(hall), place_(WebPlace(std::move(hall), std::move(address))) {}
 
   void begin() {
     if constexpr (kSecure) {
@@ -315,17 +277,32 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   void read() {
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(hall_->options.header_bytes));
-    parser_->body_limit(hall_->options.body_bytes);
+    // None until it is known what the request is; Beast takes boost::none for a limit of nothing.
+    parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
     lowest().expires_after(kRequestWithin);
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = this->shared_from_this()](error_code error, std::size_t) { self->headed(error); });
+  }
+
+  void headed(error_code error) {
+    std::size_t more = 0;
+    if (!error)
+      if (const auto header = plain_request()) more = hall_->site->longest_body(*header);
+    longest_body_ = more > 0 ? more : hall_->options.body_bytes;
+    if (!error && parser_->content_length().value_or(0) > longest_body_) error = http::error::body_limit;
+    if (error) return taken(error);
+    parser_->body_limit(longest_body_);
+    if (more > 0) lowest().expires_after(kUploadWithin);
     http::async_read(stream_, buffer_, *parser_,
-                     [self = this->shared_from_this()](error_code error, std::size_t) { self->taken(error); });
+                     [self = this->shared_from_this()](error_code failed, std::size_t) { self->taken(failed); });
   }
 
   void taken(error_code error) {
     if (error == http::error::header_limit)
       return write(refusal(431, "the request's header is too long", "reload the page"), true);
     if (error == http::error::body_limit)
-      return write(refusal(413, "the request is too long", "send less than 64 KiB"), true);
+      return write(refusal(413, "the request is too long", fmt::format("send less than {} KiB", longest_body_ >> 10U)),
+                   true);
     if (error == http::error::end_of_stream) return finish();
     if (error.category() == make_error_code(http::error::bad_target).category())
       return write(refusal(400, "this is not an HTTP request: " + error.message(), "use a web browser"), true);
@@ -341,6 +318,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     });
   }
 
+  /// Takes the body, as far as it has come.
   [[nodiscard]] Expected<HttpRequest> plain_request() {
     const auto& from = parser_->get();
     auto target = parse_target(std::string_view(from.target().data(), from.target().size()));
@@ -351,7 +329,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     request.query = std::move(target->query);
     for (const auto& field : from)
       request.headers.try_emplace(lower_case(std::string(field.name_string())), std::string(field.value()));
-    request.body = from.body();
+    request.body = std::move(parser_->get().body());
     request.address = place_->address();
     request.secure = kSecure;
     return request;
@@ -382,7 +360,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       if (request.method() != http::verb::head) response_->body() = {answer_.body->data() + answer_.from, answer_.size};
     }
     const std::string host(request[http::field::host]);
-    for (const auto& [name, value] : security_headers(kSecure, host))
+    for (const auto& [name, value] : security_headers(kSecure, host, answer_.framed))
       response_->set(name, value);
     for (const auto& [name, value] : answer_.headers)
       response_->insert(name, value);
@@ -405,12 +383,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   }
 
   Stream stream_;
-  std::shared_ptr<Hall> hall_;
-  std::optional<Place> place_;
+  std::shared_ptr<WebHall> hall_;
+  std::optional<WebPlace> place_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::optional<http::response<http::span_body<const char>>> response_;
   HttpAnswer answer_;
+  std::size_t longest_body_ = 0;  // of the request that is read
 };
 
 std::string busy_text() {
@@ -424,7 +403,7 @@ std::string busy_text() {
 class WebServerImpl final : public WebServer {
  public:
   explicit WebServerImpl(const WebServerOptions& options)
-      : hall_(std::make_shared<Hall>(options)), acceptor_(loop_), again_(loop_), signals_(loop_) {}
+      : hall_(std::make_shared<WebHall>(options)), acceptor_(loop_), again_(loop_), signals_(loop_) {}
 
   [[nodiscard]] Expected<void> open() {
     const WebServerOptions& options = hall_->options;
@@ -556,7 +535,7 @@ class WebServerImpl final : public WebServer {
     socket.shutdown(tcp::socket::shutdown_send, ignored);
   }
 
-  std::shared_ptr<Hall> hall_;
+  std::shared_ptr<WebHall> hall_;
   asio::io_context loop_{1};
   std::optional<asio::ssl::context> tls_;
   RateLimit refusal_warnings_{1, 5};  // a flood of connections is not to fill the disk

@@ -1,11 +1,12 @@
-// What operators send and what is stored of it: whatever the bytes, they are read and written as the same again, or refused with a
-// remedy.
+// What operators send and what is stored of it, and what authors send about the pace of a trial: whatever the bytes, they are read and
+// written as the same again, or refused with a remedy.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
 #include "client-sdk/gateway/operations.hpp"
+#include "client-sdk/gateway/preview_api.hpp"
 
 namespace {
 
@@ -40,5 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (const auto end = parse_end(text, kNow); is_read(end)) must_hold(!*end || **end > kNow);
   if (const auto message = parse_visitor_message(text, kNow); is_read(message)) must_hold(!message->texts.empty());
+  if (const auto pace = parse_pace(std::string(text)); is_read(pace))
+    must_hold(pace->pace >= 0 && pace->pace <= 1 && pace->ticks <= 10'000);
   return 0;
 }

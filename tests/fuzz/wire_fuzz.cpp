@@ -5,15 +5,24 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "client-sdk/client/exhibit_parse.hpp"
 #include "client-sdk/client/frame_history.hpp"
 #include "client-sdk/client/parse.hpp"
 #include "server/hand/deadband.hpp"
 #include "server/state/visit_answer.hpp"
+#include "server/transport/exhibit_gate.hpp"
 #include "server/transport/validate.hpp"
 #include <mechane/client/types.hpp>
 #include <mechane/proto/convert.hpp>
+#include <mechane/proto/exhibit_key.hpp>
+#include <mechane/proto/names.hpp>
 
 namespace {
 
@@ -272,6 +281,60 @@ void fuzz_display(Bytes bytes) {
   must(status.last_warning.size() <= 500 && status.last_warning.find('\n') == std::string::npos);
 }
 
+/// What a server tells of its exhibits.
+void fuzz_exhibits(Bytes bytes) {
+  proto::ExhibitStatus wire{};
+  wire.protocol = proto::kProtocol;
+  const auto server = bytes.take<std::array<char, sizeof(wire.server)>>();
+  std::memcpy(wire.server, server.data(), server.size());
+  const std::string text(bytes.take<std::uint8_t>() * std::size_t{4}, bytes.take<char>());
+  std::vector<proto::WireText> titles(bytes.take<std::uint8_t>() % 8);
+  for (auto& title : titles) {
+    const auto language = bytes.take<std::array<char, sizeof(title.language)>>();
+    std::memcpy(title.language, language.data(), language.size());
+    title.content = proto::look_into(text);
+  }
+  std::vector<proto::WireExhibit> exhibits(bytes.take<std::uint8_t>());
+  for (auto& exhibit : exhibits) {
+    exhibit.id = exhibit.content_hash = proto::look_into(text);
+    proto::look_into(exhibit.title, titles);
+  }
+  std::vector<proto::WireExhibitAnswer> answers(bytes.take<std::uint8_t>() % 16);
+  for (auto& answer : answers)
+    answer.refusal = answer.place = answer.remedy = proto::look_into(text);
+  std::vector<char*> loadable(bytes.take<std::uint8_t>(), proto::look_into(text));
+  wire.preparing = proto::look_into(text);
+  proto::look_into(wire.exhibits, exhibits);
+  proto::look_into(wire.answers, answers);
+  proto::look_into(wire.loadable, loadable);
+  client::ExhibitStatus status;
+  if (!client::parse(wire, status)) return;
+  must(proto::is_name(status.server) && status.exhibits.size() == exhibits.size());
+  must(std::ranges::all_of(status.answers, [](const auto& a) { return a.refusal.find('\n') == std::string::npos; }));
+}
+
+/// A request about exhibits: as it came, and with a seal of the server's key.
+void fuzz_exhibit_request(Bytes bytes) {
+  static const proto::ExhibitKey key = [] {
+    const std::string folder = fmt::format("/tmp/mechane-wire-fuzz-{}", ::getpid());
+    const proto::ExhibitKey made = proto::ExhibitKey::read_or_make(folder + "/exhibits.key").value();
+    std::filesystem::remove_all(folder);
+    return made;
+  }();
+  transport::ExhibitGate gate(key, "server-1", 5);
+  auto wire = bytes.take<proto::ExhibitRequest>();
+  wire.now = bytes.take<std::uint8_t>() % 2 == 1;
+  wire.protocol = proto::kProtocol;
+  proto::set_text(wire.server, "server-1");
+  wire.incarnation = 5;
+  transport::ExhibitOrder order;
+  must(gate.take(wire, order) == transport::ExhibitFault::forged);
+  key.seal(wire);
+  if (gate.take(wire, order) != transport::ExhibitFault::none) return;
+  must(proto::is_exhibit_name(order.exhibit) && order.verb <= transport::ExhibitVerb::retire);
+  must(gate.take(wire, order) == transport::ExhibitFault::replayed);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -282,6 +345,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz_request(rest);
     } else {
       fuzz_display(rest);
+    }
+    return 0;
+  }
+  if (data[0] >= 0xe8) {
+    if (data[0] % 2 == 0) {
+      fuzz_exhibits(rest);
+    } else {
+      fuzz_exhibit_request(rest);
     }
     return 0;
   }

@@ -15,11 +15,9 @@
 namespace mechane::gateway {
 namespace {
 
-using std::chrono::hours;
-using std::chrono::minutes;
-using std::chrono::seconds;
+using namespace std::chrono_literals;
 
-const TimePoint kBegan{hours(1000)};
+const TimePoint kBegan{1000h};
 
 TEST(Secrets, AreDifferentAndNeedNoEscape) {
   ASSERT_TRUE(start_secrets());
@@ -70,13 +68,13 @@ TEST(SessionsInMemory, EndWhenIdleAndAfterADay) {
   const std::string visitor = sessions.begin("tablet", Role::visitor, kBegan);
   EXPECT_EQ(sessions.find("", kBegan), nullptr);
   TimePoint now = kBegan;
-  for (; now < kBegan + Sessions::kLongest; now += hours(1))
+  for (; now < kBegan + Sessions::kLongest; now += 1h)
     ASSERT_NE(sessions.find(manager, now), nullptr);
-  EXPECT_EQ(sessions.find(manager, now + hours(1)), nullptr) << "in use, but for a day";
-  EXPECT_NE(sessions.find(visitor, kBegan + hours(24 * 29)), nullptr);
-  EXPECT_EQ(sessions.find(visitor, kBegan + hours(24 * 60)), nullptr);
+  EXPECT_EQ(sessions.find(manager, now + 1h), nullptr) << "in use, but for a day";
+  EXPECT_NE(sessions.find(visitor, kBegan + 24h * 29), nullptr);
+  EXPECT_EQ(sessions.find(visitor, kBegan + 24h * 60), nullptr);
   const std::string idle = sessions.begin("operator", Role::manager, kBegan);
-  EXPECT_EQ(sessions.find(idle, kBegan + Sessions::kIdle + seconds(1)), nullptr);
+  EXPECT_EQ(sessions.find(idle, kBegan + Sessions::kIdle + 1s), nullptr);
 }
 
 TEST(SessionsInMemory, EndWithTheirUser) {
@@ -104,38 +102,48 @@ TEST(SignIns, AreSlowedDownAfterFiveFailures) {
     EXPECT_FALSE(guard.wait_of("eva", kBegan));
     guard.failed("eva", kBegan);
   }
-  EXPECT_EQ(guard.wait_of("eva", kBegan), Duration(seconds(1)));
+  EXPECT_EQ(guard.wait_of("eva", kBegan), Duration(1s));
   EXPECT_FALSE(guard.wait_of("tom", kBegan));
-  EXPECT_FALSE(guard.wait_of("eva", kBegan + seconds(1)));
+  EXPECT_FALSE(guard.wait_of("eva", kBegan + 1s));
   for (int k = 0; k < 20; ++k)
     guard.failed("eva", kBegan);
-  EXPECT_EQ(guard.wait_of("eva", kBegan), Duration(minutes(5)));
+  EXPECT_EQ(guard.wait_of("eva", kBegan), Duration(5min));
   guard.succeeded("eva");
   EXPECT_FALSE(guard.wait_of("eva", kBegan));
 }
 
 TEST(KioskTokensInUse, OpenOneKioskUntilTheyAreIdle) {
   ASSERT_TRUE(start_secrets());
-  KioskTokens tokens(minutes(30));
+  KioskTokens tokens(30min);
   const std::string token = tokens.token_for("kiosk-1", kBegan);
   EXPECT_TRUE(tokens.opens(token, "kiosk-1", kBegan));
   EXPECT_FALSE(tokens.opens(token, "kiosk-2", kBegan));
   EXPECT_FALSE(tokens.opens("", "kiosk-1", kBegan));
-  tokens.use(token, kBegan + minutes(29));
-  EXPECT_TRUE(tokens.opens_any(token, kBegan + minutes(58)));
-  EXPECT_FALSE(tokens.opens(token, "kiosk-1", kBegan + minutes(60)));
-  tokens.use(token, kBegan + minutes(60));
-  EXPECT_FALSE(tokens.opens(token, "kiosk-1", kBegan + minutes(60))) << "what has ended does not come back";
+  tokens.use(token, kBegan + 29min);
+  EXPECT_TRUE(tokens.opens_any(token, kBegan + 58min));
+  EXPECT_FALSE(tokens.opens(token, "kiosk-1", kBegan + 60min));
+  tokens.use(token, kBegan + 60min);
+  EXPECT_FALSE(tokens.opens(token, "kiosk-1", kBegan + 60min)) << "what has ended does not come back";
 }
 
 TEST(KioskTokensInUse, Rotate) {
   ASSERT_TRUE(start_secrets());
-  KioskTokens tokens(minutes(30));
+  KioskTokens tokens(30min);
   const std::string first = tokens.token_for("kiosk-1", kBegan);
-  EXPECT_EQ(tokens.token_for("kiosk-1", kBegan + minutes(9)), first);
-  const std::string second = tokens.token_for("kiosk-1", kBegan + minutes(11));
+  EXPECT_EQ(tokens.token_for("kiosk-1", kBegan + 9min), first);
+  const std::string second = tokens.token_for("kiosk-1", kBegan + 11min);
   EXPECT_NE(second, first);
-  EXPECT_TRUE(tokens.opens(first, "kiosk-1", kBegan + minutes(11))) << "who is there stays";
+  EXPECT_TRUE(tokens.opens(first, "kiosk-1", kBegan + 11min)) << "who is there stays";
+}
+
+TEST(KioskTokensInUse, EndForOneKiosk) {
+  ASSERT_TRUE(start_secrets());
+  KioskTokens tokens(30min);
+  const std::string ended = tokens.token_for("studio-mine", kBegan), other = tokens.token_for("kiosk-1", kBegan);
+  tokens.end("studio-mine");
+  EXPECT_FALSE(tokens.opens_any(ended, kBegan));
+  EXPECT_TRUE(tokens.opens(other, "kiosk-1", kBegan));
+  EXPECT_NE(tokens.token_for("studio-mine", kBegan), ended);
 }
 
 TEST(RateLimitOfAnAddress, FillsSteadily) {
@@ -144,9 +152,9 @@ TEST(RateLimitOfAnAddress, FillsSteadily) {
     EXPECT_TRUE(limits.take("a", kBegan));
   EXPECT_FALSE(limits.take("a", kBegan));
   EXPECT_TRUE(limits.take("b", kBegan));
-  EXPECT_TRUE(limits.take("a", kBegan + seconds(1)));
-  EXPECT_TRUE(limits.take("a", kBegan + seconds(1)));
-  EXPECT_FALSE(limits.take("a", kBegan + seconds(1)));
+  EXPECT_TRUE(limits.take("a", kBegan + 1s));
+  EXPECT_TRUE(limits.take("a", kBegan + 1s));
+  EXPECT_FALSE(limits.take("a", kBegan + 1s));
 }
 
 TEST(AuditLogFiles, AreAppendedToAndRotated) {

@@ -1,0 +1,89 @@
+#include "client-sdk/gateway/preview_api.hpp"
+
+#include <memory>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "client-sdk/gateway/studio_api.hpp"
+#include "client-sdk/studio/command.hpp"
+#include "client-sdk/studio/shelf.hpp"
+
+namespace mechane::gateway {
+namespace {
+
+using PaceJson = nlohmann::json;
+
+constexpr std::uint32_t kMostTicks = 10'000;
+
+HttpAnswer looked_at(GatewaySite& site, const std::string& draft) {
+  return fresh_answer(site.previews().look(draft, time_now()));
+}
+
+void start_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
+  const auto revision = studio::parse_revision(body);
+  if (!revision) return done(fault_answer({revision.error()}));
+  if (site.knows_kiosk(PreviewDesk::kiosk_of(draft)))
+    return done(refusal(409, "a kiosk of the museum has the name that this draft would be tried under",
+                        "give the draft, or the kiosk, another name"));
+  if (auto room = site.previews().prepare(draft); !room) return done(refusal(room.error()));
+  const auto laid = std::make_shared<std::optional<studio::PreviewDraft>>();
+  site.studio().give(
+      [draft, laid, r = *revision](studio::Shelf& shelf) {
+        auto draft_laid = shelf.lay_out(draft, r);
+        if (!draft_laid) return fault_answer(draft_laid.error());
+        *laid = std::move(*draft_laid);
+        return fresh_answer("{}");
+      },
+      [&site, draft, laid, done](HttpAnswer answer) {
+        site.previews().start(draft, *laid ? &**laid : nullptr, time_now());
+        done(*laid ? looked_at(site, draft) : std::move(answer));
+      });
+}
+
+void pace_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
+  const auto wish = parse_pace(body);
+  if (!wish) return done(refusal(wish.error()));
+  const auto done_so =
+      wish->ticks > 0 ? site.previews().step(draft, wish->ticks) : site.previews().set_pace(draft, wish->pace);
+  done(done_so ? looked_at(site, draft) : refusal(done_so.error()));
+}
+
+}  // namespace
+
+Expected<PaceWish> parse_pace(const std::string& body) {
+  const PaceJson json = PaceJson::parse(body, nullptr, false);
+  if (json.is_object() && json.size() == 1) {
+    const auto pace = json.find("pace"), ticks = json.find("ticks");
+    if (pace != json.end() && pace->is_number() && pace->get<double>() >= 0 && pace->get<double>() <= 1)
+      return PaceWish{pace->get<double>(), 0};
+    if (ticks != json.end() && ticks->is_number_unsigned() && ticks->get<std::uint64_t>() >= 1 &&
+        ticks->get<std::uint64_t>() <= kMostTicks)
+      return PaceWish{1, ticks->get<std::uint32_t>()};
+  }
+  return fail(ErrorCode::invalid_value, "this is neither a pace nor a number of ticks", {},
+              R"(send {"pace": 0 to 1} or {"ticks": 1 to 10000})");
+}
+
+bool is_preview_verb(const std::string& verb) {
+  return verb == "preview" || verb == "preview/stop" || is_passing(verb);
+}
+
+bool is_passing(const std::string& verb) {
+  return verb == "preview/pace";
+}
+
+bool answer_preview_get(GatewaySite& site, const std::string& draft, const std::string& verb, const Site::Done& done) {
+  if (verb != "preview") return false;
+  return done(looked_at(site, draft)), true;
+}
+
+void answer_preview_post(GatewaySite& site, const std::string& draft, const std::string& verb, const std::string& body,
+                         const Site::Done& done) {
+  if (verb == "preview") return start_preview(site, draft, body, done);
+  if (verb == "preview/pace") return pace_preview(site, draft, body, done);
+  site.previews().stop(draft);
+  done(looked_at(site, draft));
+}
+
+}  // namespace mechane::gateway

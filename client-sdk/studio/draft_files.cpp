@@ -1,0 +1,159 @@
+#include "client-sdk/studio/draft_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "server/base/whole_file.hpp"
+#include "server/scenario/file_references.hpp"
+
+namespace mechane::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FileKind {
+  std::string_view ending;
+  std::string_view begins;  ///< its first bytes; empty: these tell nothing
+  bool sound = false;
+};
+constexpr std::array<FileKind, 8> kFileKinds{{{".glb", "glTF"},
+                                              {".ply", "ply"},
+                                              {".obj", ""},
+                                              {".stl", ""},
+                                              {".x3d", ""},
+                                              {".ogg", "OggS", true},
+                                              {".wav", "RIFF", true},
+                                              {".flac", "fLaC", true}}};
+
+const FileKind* kind_of(std::string_view name) {
+  const auto found = std::ranges::find_if(kFileKinds, [&](const FileKind& kind) {
+    return name.size() > kind.ending.size() && name.ends_with(kind.ending);
+  });
+  return found == kFileKinds.end() ? nullptr : &*found;
+}
+
+/// Names and sizes of what is_file_name() in a folder; links are left out.
+std::map<std::string, std::uintmax_t> files_in(const fs::path& folder) {
+  std::map<std::string, std::uintmax_t> out;
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing)) {
+    const std::string name = entry.path().filename().string();
+    if (!is_file_name(name) || entry.is_symlink(missing) || !entry.is_regular_file(missing)) continue;
+    if (const std::uintmax_t bytes = entry.file_size(missing); !missing) out[name] = bytes;
+  }
+  return out;
+}
+
+bool is_same(const fs::path& file, std::span<const std::byte> bytes) {
+  const auto there = read_whole(file, DraftFiles::kMostBytes);
+  return there && std::ranges::equal(*there, bytes);
+}
+
+/// Another file of this name is there already.
+bool is_other(const fs::path& file, std::span<const std::byte> bytes) {
+  std::error_code unknown;
+  return fs::exists(fs::symlink_status(file, unknown)) && !is_same(file, bytes);
+}
+
+Expected<void> check_file(const std::string& name, std::span<const std::byte> bytes) {
+  const FileKind* kind = is_file_name(name) ? kind_of(name) : nullptr;
+  if (kind == nullptr)
+    return fail(ErrorCode::invalid_value, fmt::format("'{}' cannot be a file's name here", name), "",
+                "take letters a-z, digits, '-' and '_', and end in .glb, .obj, .stl, .ply, .x3d, .ogg, .wav or .flac");
+  if (bytes.size() > DraftFiles::kMostBytes)
+    return fail(ErrorCode::too_large, fmt::format("{} has more than 64 MiB", name), "", "make it smaller");
+  if (bytes.empty() || !as_text(bytes).starts_with(kind->begins))
+    return fail(ErrorCode::invalid_value, fmt::format("{} is not a {} file", name, kind->ending), "",
+                "export it again, in the format that its name says");
+  return {};
+}
+
+}  // namespace
+
+bool is_file_name(std::string_view name) {
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); };
+  const auto inner = [&](char c) { return plain(c) || c == '-' || c == '_' || c == '.'; };
+  return !name.empty() && name.size() <= 64 && plain(name.front()) && std::ranges::all_of(name, inner) &&
+         kind_of(name) != nullptr;
+}
+
+std::vector<x3d::NodeId> uses_of_file(const x3d::Document& document, const std::string& name) {
+  const std::string url = fmt::format("{}/{}", kFilesFolder, name);
+  std::vector<x3d::NodeId> out;
+  for (const scenario::FileReference& reference : scenario::file_references(document))
+    if (std::ranges::find(reference.urls, url) != reference.urls.end()) out.push_back(reference.node);
+  return out;
+}
+
+fs::path own_file(const fs::path& folder, const fs::path& url) {
+  std::error_code unknown;
+  const fs::path plain = url.lexically_normal();
+  const fs::path file = folder / plain;
+  return plain.parent_path() == kFilesFolder && fs::is_regular_file(file, unknown) ? file : fs::path();
+}
+
+Expected<std::vector<std::string>> copy_used(const x3d::Document& document, const fs::path& from, const fs::path& to) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& [name, size] : files_in(from)) {
+    if (uses_of_file(document, name).empty()) continue;
+    names.push_back(name);
+    const auto bytes = read_whole(from / name, DraftFiles::kMostBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (is_same(to / name, *bytes)) continue;
+    fs::create_directories(to, error);
+    if (error) return tl::unexpected(file_error("cannot be made", to, error.value()));
+    if (auto written = write_whole(to / name, *bytes, WholeFile::document); !written)
+      return tl::unexpected(written.error());
+  }
+  return names;
+}
+
+DraftFiles::DraftFiles(const fs::path& draft_folder, const fs::path& exhibit_folder)
+    : draft_(draft_folder / kFilesFolder), exhibit_(exhibit_folder / kFilesFolder) {}
+
+std::vector<DraftFile> DraftFiles::all() const {
+  const auto mine = files_in(draft_), theirs = files_in(exhibit_);
+  auto both = mine;
+  both.insert(theirs.begin(), theirs.end());
+  std::vector<DraftFile> out;
+  for (const auto& [name, bytes] : both) {
+    bool published = theirs.contains(name);
+    if (published && mine.contains(name)) {
+      const auto here = bytes == theirs.at(name) ? read_whole(draft_ / name, kMostBytes) : std::vector<std::byte>();
+      published = here && is_same(exhibit_ / name, *here);
+    }
+    out.push_back({name, bytes, kind_of(name)->sound, published});
+  }
+  return out;
+}
+
+Expected<fs::path> DraftFiles::find(const std::string& name) const {
+  for (const fs::path& folder : {draft_, exhibit_})
+    if (files_in(folder).contains(name)) return folder / name;
+  return fail(ErrorCode::not_found, "the draft has no such file", name, "take one of the list");
+}
+
+Expected<void> DraftFiles::put(const std::string& name, std::span<const std::byte> bytes, bool replace) const {
+  if (auto checked = check_file(name, bytes); !checked) return checked;
+  if (!replace && (is_other(draft_ / name, bytes) || is_other(exhibit_ / name, bytes)))
+    return fail(ErrorCode::conflict, fmt::format("there is another file {}", name), "",
+                "give this one another name, or say that it replaces that one");
+  auto mine = files_in(draft_);
+  mine[name] = bytes.size();
+  std::uintmax_t together = 0;
+  for (const auto& [one, size] : mine)
+    together += size;
+  if (mine.size() > kMostFiles || together > kMostOfAll)
+    return fail(ErrorCode::too_large, "the draft's files would be more than 200, or more than 512 MiB", "",
+                "discard what is not used, or make them smaller");
+  std::error_code error;
+  fs::create_directories(draft_, error);
+  if (error) return tl::unexpected(file_error("cannot be made", draft_, error.value()));
+  return write_whole(draft_ / name, bytes, WholeFile::durable);
+}
+
+}  // namespace mechane::studio

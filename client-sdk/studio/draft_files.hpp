@@ -1,0 +1,63 @@
+// Meshes and sounds that authors bring into a draft: in its folder until it is published, then beside the exhibit's file. The exhibit names
+// them files/NAME.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/base/error.hpp"
+#include "server/x3d/document.hpp"
+
+namespace mechane::studio {
+
+/// What stands before the name in an exhibit's urls, and the name of the folder.
+inline constexpr std::string_view kFilesFolder = "files";
+
+struct DraftFile {
+  std::string name;
+  std::uintmax_t bytes = 0;
+  bool sound = false;      ///< otherwise a mesh
+  bool published = false;  ///< the exhibit's folder has the same
+};
+
+/// Any thread, one at a time; it may wait for the disk.
+class DraftFiles {
+ public:
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20U;  ///< of one
+  static constexpr std::uintmax_t kMostOfAll = std::uintmax_t{512} << 20U;
+  static constexpr std::size_t kMostFiles = 200;
+
+  DraftFiles(const std::filesystem::path& draft_folder, const std::filesystem::path& exhibit_folder);
+
+  /// Those of the draft and of the exhibit's own folder `files`, by name.
+  [[nodiscard]] std::vector<DraftFile> all() const;
+  /// Errors: invalid_value (a name or a kind that is not taken, bytes that are not of that kind); conflict (another file has the name, and
+  /// `replace` is false); too_large; io_failure, and then it is as it was.
+  [[nodiscard]] Expected<void> put(const std::string& name, std::span<const std::byte> bytes, bool replace) const;
+  /// The draft's own, or the exhibit's. Errors: not_found.
+  [[nodiscard]] Expected<std::filesystem::path> find(const std::string& name) const;
+
+ private:
+  std::filesystem::path draft_;
+  std::filesystem::path exhibit_;
+};
+
+/// 1 to 64 of the letters a-z and A-Z, digits, '-', '_' and '.', with a letter or digit first, and the ending of a mesh or a sound.
+[[nodiscard]] bool is_file_name(std::string_view name);
+
+/// FOLDER/files/NAME for the url files/NAME, where that file is there; empty for every other url.
+[[nodiscard]] std::filesystem::path own_file(const std::filesystem::path& folder, const std::filesystem::path& url);
+
+/// Copies the files of a folder that the document names into another one, and returns their names. Errors: io_failure.
+[[nodiscard]] Expected<std::vector<std::string>> copy_used(const x3d::Document& document,
+                                                           const std::filesystem::path& from,
+                                                           const std::filesystem::path& to);
+
+/// Where a document names files/NAME: its elements, in the order written.
+[[nodiscard]] std::vector<x3d::NodeId> uses_of_file(const x3d::Document& document, const std::string& name);
+
+}  // namespace mechane::studio

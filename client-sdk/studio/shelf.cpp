@@ -1,0 +1,479 @@
+#include "client-sdk/studio/shelf.hpp"
+
+#include <algorithm>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "client-sdk/authoring/editor.hpp"
+#include "client-sdk/studio/draft_loader.hpp"
+#include "client-sdk/studio/parts.hpp"
+#include "client-sdk/studio/preview_file.hpp"
+#include "client-sdk/studio/view.hpp"
+#include "server/base/whole_file.hpp"
+#include "server/content/mesh_import.hpp"
+#include "server/scenario/checker.hpp"
+#include "server/scenario/file_finder.hpp"
+#include "server/scenario/mesh_finder.hpp"
+#include "server/scenario/solid.hpp"
+#include "server/x3d/metadata.hpp"
+
+namespace mechane::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using ShelfJson = nlohmann::json;
+
+/// The folder of discarded drafts, beside the others.
+constexpr std::string_view kDiscarded = "discarded";
+/// Of a mesh file, that are told.
+constexpr std::size_t kMostNodes = 200;
+/// What a draft begins as, before the exhibit's name.
+constexpr std::string_view kFromExhibit = "exhibit:";
+
+std::string shelf_text(const ShelfJson& json) {
+  return json.dump(-1, ' ', false, ShelfJson::error_handler_t::replace);
+}
+
+tl::unexpected<ShelfFault> shelf_fault(Error error) {
+  return tl::unexpected(ShelfFault{std::move(error)});
+}
+
+ShelfJson title_json(const state::Texts& title) {
+  ShelfJson out = ShelfJson::object();
+  for (const auto& [language, text] : title)
+    out[language] = text;
+  return out;
+}
+
+/// The titles in mechane:scenario; without them X3D's own, in no language.
+state::Texts titles_in(const x3d::Document& document) {
+  state::Texts out;
+  x3d::Problems ignored("");
+  for (const x3d::NodeId info : document.elements("WorldInfo")) {
+    const auto set = x3d::read_metadata(document, info, "mechane:scenario", ignored);
+    const x3d::Metadata* text = set ? set->find("text") : nullptr;
+    for (const x3d::Metadata& one : text == nullptr ? std::vector<x3d::Metadata>() : text->children)
+      if (one.name.starts_with("title.") && one.strings.size() == 1) out[one.name.substr(6)] = one.strings.front();
+  }
+  return out;
+}
+
+std::vector<std::string> folders_in(const fs::path& folder, const auto& holds) {
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing)) {
+    const std::string name = entry.path().filename().string();
+    if (is_exhibit_name(name) && holds(entry.path(), name)) names.push_back(name);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+tl::unexpected<ShelfFault> bad_exhibit_name() {
+  return shelf_fault({ErrorCode::invalid_value, "this cannot be an exhibit's name", "",
+                      "take 1 to 31 of the letters a-z, digits and '-', with a letter or digit first"});
+}
+
+/// What was opened under this name began otherwise.
+tl::unexpected<ShelfFault> name_taken(const std::string& name, const std::string& from) {
+  return shelf_fault({ErrorCode::conflict, fmt::format("'{}' exists already: it began as {}", name, from), "",
+                      "take another name, or open that one"});
+}
+
+}  // namespace
+
+std::string fault_json(const ShelfFault& fault) {
+  ShelfJson out{{"error", fault.error.what}, {"remedy", fault.error.remedy}};
+  if (!fault.error.where.empty()) out["place"] = fault.error.where;
+  if (fault.error.line > 0) out["line"] = fault.error.line;
+  if (fault.revision) out["revision"] = *fault.revision;
+  if (fault.command) out["command"] = *fault.command;
+  if (!fault.problems.empty()) out["problems"] = ShelfJson::parse(problems_json(nullptr, fault.problems));
+  return shelf_text(out);
+}
+
+bool is_exhibit_name(std::string_view name) {
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  return !name.empty() && name.size() <= 31 && name != kDiscarded && plain(name.front()) &&
+         std::ranges::all_of(name, [&](char c) { return plain(c) || c == '-'; });
+}
+
+Shelf::Shelf(fs::path scenarios, fs::path state) : scenarios_(std::move(scenarios)), state_(std::move(state)) {}
+
+fs::path Shelf::exhibit_file(const std::string& name) const {
+  return scenarios_ / name / (name + ".x3d");
+}
+
+DraftFiles Shelf::files_of(const std::string& name) const {
+  return {state_ / name, exhibit_file(name).parent_path()};
+}
+
+Expected<std::vector<std::string>> Shelf::copy_files(const std::string& name, const std::string& text,
+                                                     const fs::path& from, const fs::path& to) const {
+  x3d::Problems problems(name);
+  const auto document = x3d::read_document(text, exhibit_file(name), problems);
+  if (!document) return tl::unexpected(document.error());
+  return copy_used(*document, from / kFilesFolder, to);
+}
+
+std::vector<std::string> Shelf::exhibit_names() const {
+  return folders_in(scenarios_, [](const fs::path& folder, const std::string& name) {
+    std::error_code unknown;
+    return fs::is_regular_file(folder / (name + ".x3d"), unknown);
+  });
+}
+
+std::vector<std::string> Shelf::draft_names() const {
+  return folders_in(state_, [](const fs::path& folder, const std::string&) {
+    std::error_code unknown;
+    return fs::is_regular_file(folder / "draft.x3d", unknown);
+  });
+}
+
+state::Texts Shelf::title_of(const fs::path& file) {
+  std::error_code error;
+  const auto changed = fs::last_write_time(file, error);
+  const std::uintmax_t size = error ? 0 : fs::file_size(file, error);
+  KnownTitle& known = titles_[file];
+  if (error || (known.changed == changed && known.size == size)) return known.title;
+  x3d::Problems problems(file.string());
+  const auto document = x3d::read_document(file, problems);
+  known = {changed, size, document ? titles_in(*document) : state::Texts()};
+  return known.title;
+}
+
+ShelfResult<std::string> Shelf::list() {
+  const std::vector<std::string> drafts = draft_names();
+  std::set<std::string> names(drafts.begin(), drafts.end());
+  for (const std::string& name : exhibit_names())
+    names.insert(name);
+  ShelfJson exhibits = ShelfJson::array(), begins = ShelfJson::array();
+  for (const std::string& name : names) {
+    const bool drafted = std::ranges::binary_search(drafts, name);
+    ShelfJson entry{{"name", name}, {"draft", nullptr}, {"title", ShelfJson::object()}};
+    auto opened = drafted ? open(name) : shelf_fault({});
+    // A draft that cannot be read is in the list all the same: opening it tells why.
+    if (drafted && !opened) entry["draft"] = {{"revision", -1}, {"by", ""}, {"changed_s", 0}, {"problems", 1}};
+    if (opened) {
+      const Author& changed = (*opened)->draft.changed();
+      entry["draft"] = {{"revision", (*opened)->draft.revision()},
+                        {"by", changed.name},
+                        {"changed_s", changed.time_s},
+                        {"problems", count_errors(problems_of(name, **opened))}};
+    }
+    entry["title"] = title_json(title_of(drafted ? state_ / name / "draft.x3d" : exhibit_file(name)));
+    exhibits.push_back(std::move(entry));
+  }
+  for (const Template& one : templates())
+    begins.push_back({{"name", one.name}, {"title", {{"el", one.title_el}, {"en", one.title_en}}}});
+  return shelf_text({{"exhibits", std::move(exhibits)}, {"templates", std::move(begins)}});
+}
+
+Expected<std::string> Shelf::first_text(const std::string& name, const std::string& from) {
+  constexpr std::string_view kTemplate = "template:";
+  if (from.starts_with(kTemplate)) {
+    const Template* known = find_template(from.substr(kTemplate.size()));
+    if (known != nullptr) return text_of(*known, name);
+    return fail(ErrorCode::not_found, "there is no such template", from, "take one of the list");
+  }
+  const std::string exhibit = from.starts_with(kFromExhibit) ? from.substr(kFromExhibit.size()) : "";
+  if (!is_exhibit_name(exhibit))
+    return fail(ErrorCode::invalid_value, "it is not said what the draft begins as", from,
+                "write exhibit:NAME or template:NAME");
+  const auto bytes = read_whole(exhibit_file(exhibit), Draft::kMostBytes);
+  if (!bytes && bytes.error().code == ErrorCode::not_found)
+    return fail(ErrorCode::not_found, "there is no such exhibit", exhibit, "take one of the list");
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto editor = authoring::Editor::read(as_text(*bytes), exhibit_file(name));
+  if (!editor) return tl::unexpected(editor.error());
+  // A copy is an exhibit of its own: a server cannot have two with one id.
+  if (exhibit != name)
+    if (auto set = editor->set("id", std::vector<std::string>{name}); !set) return tl::unexpected(set.error());
+  return editor->text();
+}
+
+ShelfResult<std::string> Shelf::begin(const std::string& name, const std::string& from, const Author& author) {
+  if (!is_exhibit_name(name)) return bad_exhibit_name();
+  const std::vector<std::string> drafts = draft_names();
+  const std::vector<std::string> exhibits = exhibit_names();
+  const bool own = from == "exhibit:" + name;
+  if (std::ranges::binary_search(drafts, name)) {
+    auto opened = open(name);
+    if (!opened) return tl::unexpected(opened.error());
+    if (!own && (*opened)->draft.from() != from) return name_taken(name, (*opened)->draft.from());
+    return view_of(name, **opened);
+  }
+  if (!own && std::ranges::binary_search(exhibits, name)) return name_taken(name, "an exhibit");
+  if (drafts.size() >= kMostDrafts)
+    return shelf_fault({ErrorCode::too_large, "there are too many drafts", "", "discard some first"});
+  auto text = first_text(name, from);
+  if (!text) return shelf_fault(text.error());
+  // The text names its files beside it: a copy brings those of the exhibit that it was copied from.
+  if (!own && from.starts_with(kFromExhibit)) {
+    const fs::path theirs = exhibit_file(from.substr(kFromExhibit.size())).parent_path();
+    if (auto copied = copy_files(name, *text, theirs, state_ / name / kFilesFolder); !copied)
+      return shelf_fault(copied.error());
+  }
+  auto made = Draft::make(state_ / name, std::move(*text), from, author);
+  if (!made) return shelf_fault(made.error());
+  return view_of(name, keep(name, std::move(*made)));
+}
+
+Shelf::Open& Shelf::keep(const std::string& name, Draft draft) {
+  if (open_.size() >= kMostOpen)
+    open_.erase(std::ranges::min_element(open_, {}, [](const auto& entry) { return entry.second.used; }));
+  const auto put = open_.insert_or_assign(name, Open{std::move(draft)}).first;
+  put->second.used = ++uses_;
+  return put->second;
+}
+
+ShelfResult<Shelf::Open*> Shelf::open(const std::string& name) {
+  if (!is_exhibit_name(name)) return bad_exhibit_name();
+  if (const auto known = open_.find(name); known != open_.end()) {
+    known->second.used = ++uses_;
+    return &known->second;
+  }
+  auto draft = Draft::open(state_ / name);
+  if (!draft && draft.error().code == ErrorCode::not_found)
+    return shelf_fault(
+        {ErrorCode::not_found, "there is no draft of this name", name, "begin it from an exhibit or a template"});
+  if (!draft) return shelf_fault(draft.error());
+  return &keep(name, std::move(*draft));
+}
+
+ShelfResult<Shelf::Open*> Shelf::open_at(const std::string& name, std::int64_t revision) {
+  auto opened = open(name);
+  if (!opened || (*opened)->draft.revision() == revision) return opened;
+  const Draft& draft = (*opened)->draft;
+  return tl::unexpected(
+      ShelfFault{{ErrorCode::conflict, fmt::format("the draft was changed meanwhile by {}", draft.changed().name), "",
+                  "look at the draft as it is now, and make the change again"},
+                 true,
+                 draft.revision()});
+}
+
+const std::vector<x3d::Problem>& Shelf::problems_of(const std::string& name, Open& open) {
+  if (open.checked != open.draft.revision()) {
+    scenario::FileFinder finder;
+    DraftLoader loader(exhibit_file(name), open.draft.file(), finder);
+    open.problems = scenario::check_text(open.draft.text(), exhibit_file(name), loader);
+    open.checked = open.draft.revision();
+  }
+  return open.problems;
+}
+
+ShelfResult<std::string> Shelf::view_of(const std::string& name, Open& open, std::vector<std::string> added) {
+  x3d::Problems problems(name);
+  const auto document = x3d::read_document(open.draft.text(), exhibit_file(name), problems);
+  if (!document) return shelf_fault(document.error());
+  return view_json({name, open.draft.history(), *document, open.draft.changed().name, open.draft.notice(),
+                    problems_of(name, open), std::move(added)});
+}
+
+ShelfResult<std::string> Shelf::view(const std::string& name) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  (*opened)->checked = -1;  // a mesh file may have come or gone meanwhile
+  return view_of(name, **opened);
+}
+
+ShelfResult<std::string> Shelf::text(const std::string& name) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  return (*opened)->draft.text();
+}
+
+ShelfResult<std::string> Shelf::change(const std::string& name, const CommandList& list, const Author& author) {
+  auto opened = open_at(name, list.revision);
+  if (!opened) return tl::unexpected(opened.error());
+  auto applied = apply_commands((*opened)->draft.text(), exhibit_file(name), list.commands);
+  if (!applied) {
+    ShelfFault fault{applied.error().error};
+    fault.command = applied.error().command;
+    return tl::unexpected(std::move(fault));
+  }
+  if (auto done = (*opened)->draft.step(studio::title_of(list.commands), applied->text, author); !done)
+    return shelf_fault(done.error());
+  return view_of(name, **opened, std::move(applied->added));
+}
+
+ShelfResult<std::string> Shelf::undo(const std::string& name, std::int64_t revision, const Author& author) {
+  auto opened = open_at(name, revision);
+  if (!opened) return tl::unexpected(opened.error());
+  if (auto done = (*opened)->draft.undo(author); !done) return shelf_fault(done.error());
+  return view_of(name, **opened);
+}
+
+ShelfResult<std::string> Shelf::redo(const std::string& name, std::int64_t revision, const Author& author) {
+  auto opened = open_at(name, revision);
+  if (!opened) return tl::unexpected(opened.error());
+  if (auto done = (*opened)->draft.redo(author); !done) return shelf_fault(done.error());
+  return view_of(name, **opened);
+}
+
+ShelfResult<std::string> Shelf::versions(const std::string& name) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  ShelfJson list = ShelfJson::array();
+  for (const Version& version : Versions((*opened)->draft.folder() / "versions").all())
+    list.push_back(
+        {{"number", version.number}, {"title", version.title}, {"by", version.by}, {"made_s", version.made_s}});
+  return shelf_text({{"versions", std::move(list)}});
+}
+
+ShelfResult<std::string> Shelf::add_version(const std::string& name, const std::string& title, const Author& author) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  const Draft& draft = (*opened)->draft;
+  const auto added = Versions(draft.folder() / "versions").add(title, draft.text(), author);
+  if (!added) return shelf_fault(added.error());
+  return shelf_text({{"number", added->number}, {"title", added->title}, {"by", added->by}, {"made_s", added->made_s}});
+}
+
+ShelfResult<std::string> Shelf::restore(const std::string& name, std::int64_t version, std::int64_t revision,
+                                        const Author& author) {
+  auto opened = open_at(name, revision);
+  if (!opened) return tl::unexpected(opened.error());
+  Draft& draft = (*opened)->draft;
+  const auto text = Versions(draft.folder() / "versions").text(version);
+  if (!text) return shelf_fault(text.error());
+  if (auto done = draft.step(fmt::format("restore version {}", version), *text, author); !done)
+    return shelf_fault(done.error());
+  return view_of(name, **opened);
+}
+
+ShelfResult<void> Shelf::check_whole(const std::string& name, const Draft& draft) const {
+  scenario::MeshFinder finder;
+  DraftLoader loader(exhibit_file(name), draft.file(), finder);
+  auto problems = scenario::check_text(draft.text(), exhibit_file(name), loader);
+  const std::size_t errors = count_errors(problems);
+  if (errors == 0) return {};
+  ShelfFault fault{{ErrorCode::invalid_value, fmt::format("the draft has {} error{}", errors, errors == 1 ? "" : "s"),
+                    "", "mend what the list of problems says"}};
+  fault.problems = std::move(problems);
+  return tl::unexpected(std::move(fault));
+}
+
+ShelfResult<PreviewDraft> Shelf::lay_out(const std::string& name, std::int64_t revision) {
+  auto opened = open_at(name, revision);
+  if (!opened) return tl::unexpected(opened.error());
+  if (auto checked = check_whole(name, (*opened)->draft); !checked) return tl::unexpected(checked.error());
+  auto compiled = compile(name);
+  if (!compiled) return tl::unexpected(compiled.error());
+  const std::string& text = (*opened)->draft.text();
+  const fs::path folder = exhibit_file(name).parent_path();
+  const auto copied = copy_files(name, text, state_ / name, folder / kPreviewFiles);
+  if (!copied) return shelf_fault(copied.error());
+  auto file = write_preview(folder, with_preview_files(text, *copied));
+  if (!file) return shelf_fault(file.error());
+  return PreviewDraft{std::make_shared<const state::WorldDescription>(std::move(compiled->world)), std::move(*file),
+                      revision};
+}
+
+ShelfResult<std::string> Shelf::publish(const std::string& name, std::int64_t revision, const Author& author) {
+  auto opened = open_at(name, revision);
+  if (!opened) return tl::unexpected(opened.error());
+  const Draft& draft = (*opened)->draft;
+  const fs::path file = exhibit_file(name);
+  if (auto checked = check_whole(name, draft); !checked) return tl::unexpected(checked.error());
+  const auto former = read_whole(file, Draft::kMostBytes);
+  if (!former && former.error().code != ErrorCode::not_found) return shelf_fault(former.error());
+  const std::string_view before = former ? as_text(*former) : std::string_view();
+  const fs::path to = file.parent_path() / kFilesFolder;
+  if (auto copied = copy_files(name, draft.text(), draft.folder(), to); !copied) return shelf_fault(copied.error());
+  if (former && before == draft.text()) return shelf_text({{"published", true}});
+  if (former) {
+    const auto kept = Versions(draft.folder() / "versions").add("before publishing", before, author);
+    if (!kept) return shelf_fault(kept.error());
+  }
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) return shelf_fault(file_error("cannot be made", file.parent_path(), error.value()));
+  if (auto written = authoring::write_file(file, draft.text()); !written) return shelf_fault(written.error());
+  return shelf_text({{"published", true}});
+}
+
+ShelfResult<std::string> Shelf::files(const std::string& name) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  x3d::Problems problems(name);
+  const auto document = x3d::read_document((*opened)->draft.text(), exhibit_file(name), problems);
+  if (!document) return shelf_fault(document.error());
+  ShelfJson list = ShelfJson::array();
+  for (const DraftFile& file : files_of(name).all()) {
+    ShelfJson uses = ShelfJson::array();
+    for (const x3d::NodeId node : uses_of_file(*document, file.name))
+      uses.push_back({{"place", document->describe(node)}, {"line", (*document)[node].line}});
+    list.push_back({{"name", file.name},
+                    {"url", fmt::format("{}/{}", kFilesFolder, file.name)},
+                    {"kind", file.sound ? "sound" : "mesh"},
+                    {"bytes", file.bytes},
+                    {"published", file.published},
+                    {"uses", std::move(uses)}});
+  }
+  return shelf_text({{"files", std::move(list)}});
+}
+
+ShelfResult<std::string> Shelf::add_file(const std::string& name, const std::string& file,
+                                         std::span<const std::byte> bytes, bool replace) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  if (auto put = files_of(name).put(file, bytes, replace); !put) return shelf_fault(put.error());
+  (*opened)->checked = -1;
+  return files(name);
+}
+
+ShelfResult<std::string> Shelf::nodes_of_file(const std::string& name, const std::string& file) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  const auto path = files_of(name).find(file);
+  if (!path) return shelf_fault(path.error());
+  const auto scene = content::import_mesh(*path);
+  if (!scene) return shelf_fault(scene.error());
+  ShelfJson nodes = ShelfJson::array();
+  for (const content::ImportedNode& node : scene->nodes) {
+    if (node.name.empty() || nodes.size() >= kMostNodes) continue;
+    const auto parts = content::collision_parts(*scene, node.name);
+    if (!parts) continue;
+    const scenario::Solid solid = scenario::solid_of(*parts);
+    nodes.push_back({{"name", node.name}, {"volume", solid.is_closed() ? ShelfJson(solid.volume_m3) : ShelfJson()}});
+  }
+  return shelf_text({{"nodes", std::move(nodes)}});
+}
+
+ShelfResult<std::string> Shelf::discard(const std::string& name, std::int64_t revision) {
+  auto opened = open_at(name, revision);
+  if (!opened) return tl::unexpected(opened.error());
+  const fs::path folder = state_ / kDiscarded;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  fs::path to = folder / name;
+  for (int number = 2; !error && fs::exists(to); ++number)
+    to = folder / fmt::format("{}-{}", name, number);
+  if (!error) fs::rename(state_ / name, to, error);
+  if (error) return shelf_fault(file_error("the draft cannot be moved away", state_ / name, error.value()));
+  open_.erase(name);
+  return shelf_text({{"discarded", true}});
+}
+
+ShelfResult<CompiledDraft> Shelf::compile(const std::string& name) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  const Draft& draft = (*opened)->draft;
+  const fs::path file = exhibit_file(name);
+  scenario::FileFinder finder;
+  DraftLoader loader(file, draft.file(), finder);
+  x3d::Problems problems(file.string());
+  const auto document = x3d::read_document(draft.text(), file, problems);
+  auto world = document ? scenario::compile(*document, loader, problems) : tl::unexpected(document.error());
+  if (world) return CompiledDraft{std::move(*world), file.parent_path(), draft.file(), file.filename().string()};
+  ShelfFault fault{{ErrorCode::invalid_value, "the draft cannot be shown: " + world.error().what, world.error().where,
+                    world.error().remedy}};
+  fault.problems = problems.all();
+  return tl::unexpected(std::move(fault));
+}
+
+}  // namespace mechane::studio

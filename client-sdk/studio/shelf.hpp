@@ -1,0 +1,127 @@
+// All drafts of a museum: opened, changed, kept as versions, published, discarded. Answers are the JSON of COMMANDS.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client-sdk/studio/apply.hpp"
+#include "client-sdk/studio/draft.hpp"
+#include "client-sdk/studio/draft_files.hpp"
+#include "client-sdk/studio/versions.hpp"
+#include "server/state/description.hpp"
+#include "server/x3d/problem.hpp"
+
+namespace mechane::studio {
+
+/// Why a request came to nothing.
+struct ShelfFault {
+  Error error;
+  bool stale = false;                      ///< the draft has another revision than the one that the request is for
+  std::optional<std::int64_t> revision{};  ///< of the draft, where `stale`
+  std::optional<std::size_t> command{};    ///< that was refused
+  std::vector<x3d::Problem> problems{};    ///< that keep it from being published or shown
+};
+/// As one JSON object: what is wrong, what to do, and where, as far as it is known.
+[[nodiscard]] std::string fault_json(const ShelfFault& fault);
+
+template <class T>
+using ShelfResult = tl::expected<T, ShelfFault>;
+
+/// A draft compiled: what a server would make of it.
+struct CompiledDraft {
+  state::WorldDescription world;
+  std::filesystem::path exhibit_folder;  ///< what urls are relative to
+  std::filesystem::path file;            ///< with the draft's text: where the world's own shapes are
+  std::string own_url;                   ///< the url that stands for this file
+};
+
+/// A draft laid out for a server to try.
+struct PreviewDraft {
+  std::shared_ptr<const state::WorldDescription> world;
+  std::filesystem::path file;
+  std::int64_t revision = 0;
+};
+
+/// Owns the folder `state`; one program at a time. One thread, which may wait for the disk.
+class Shelf {
+ public:
+  static constexpr std::size_t kMostDrafts = 500;
+  static constexpr std::size_t kMostOpen = 16;  ///< kept in memory
+
+  /// `scenarios`: the server's folder of exhibits.
+  Shelf(std::filesystem::path scenarios, std::filesystem::path state);
+
+  [[nodiscard]] ShelfResult<std::string> list();
+  /// `from`: "exhibit:NAME" or "template:NAME". A draft that began as that is opened; an exhibit's own draft in any case.
+  [[nodiscard]] ShelfResult<std::string> begin(const std::string& name, const std::string& from, const Author& author);
+  [[nodiscard]] ShelfResult<std::string> view(const std::string& name);
+  [[nodiscard]] ShelfResult<std::string> text(const std::string& name);
+  [[nodiscard]] ShelfResult<std::string> change(const std::string& name, const CommandList& list, const Author& author);
+  [[nodiscard]] ShelfResult<std::string> undo(const std::string& name, std::int64_t revision, const Author& author);
+  [[nodiscard]] ShelfResult<std::string> redo(const std::string& name, std::int64_t revision, const Author& author);
+  [[nodiscard]] ShelfResult<std::string> versions(const std::string& name);
+  [[nodiscard]] ShelfResult<std::string> add_version(const std::string& name, const std::string& title,
+                                                     const Author& author);
+  [[nodiscard]] ShelfResult<std::string> restore(const std::string& name, std::int64_t version, std::int64_t revision,
+                                                 const Author& author);
+  [[nodiscard]] ShelfResult<std::string> publish(const std::string& name, std::int64_t revision, const Author& author);
+  [[nodiscard]] ShelfResult<std::string> discard(const std::string& name, std::int64_t revision);
+  /// Meshes and sounds of a draft, and where it names them.
+  [[nodiscard]] ShelfResult<std::string> files(const std::string& name);
+  /// As DraftFiles::put(). Undo does not take it back. Returns the list of files.
+  [[nodiscard]] ShelfResult<std::string> add_file(const std::string& name, const std::string& file,
+                                                  std::span<const std::byte> bytes, bool replace);
+  /// What bodies can be made of a mesh file: its nodes with the volumes of those that are closed. It imports the file.
+  [[nodiscard]] ShelfResult<std::string> nodes_of_file(const std::string& name, const std::string& file);
+  [[nodiscard]] ShelfResult<CompiledDraft> compile(const std::string& name);
+  /// Writes the draft, which has no errors, where its urls mean what they mean in the exhibit; see preview_file.hpp.
+  [[nodiscard]] ShelfResult<PreviewDraft> lay_out(const std::string& name, std::int64_t revision);
+
+ private:
+  struct Open {
+    Draft draft;
+    std::int64_t checked = -1;  ///< the revision that `problems` are of
+    std::vector<x3d::Problem> problems{};
+    std::uint64_t used = 0;
+  };
+  struct KnownTitle {
+    std::filesystem::file_time_type changed;
+    std::uintmax_t size = 0;
+    state::Texts title;
+  };
+  [[nodiscard]] ShelfResult<Open*> open(const std::string& name);
+  [[nodiscard]] ShelfResult<Open*> open_at(const std::string& name, std::int64_t revision);
+  Open& keep(const std::string& name, Draft draft);
+  [[nodiscard]] ShelfResult<std::string> view_of(const std::string& name, Open& open,
+                                                 std::vector<std::string> added = {});
+  /// With a look into mesh files. Errors: the draft's.
+  [[nodiscard]] ShelfResult<void> check_whole(const std::string& name, const Draft& draft) const;
+  const std::vector<x3d::Problem>& problems_of(const std::string& name, Open& open);
+  [[nodiscard]] state::Texts title_of(const std::filesystem::path& file);
+  [[nodiscard]] Expected<std::string> first_text(const std::string& name, const std::string& from);
+  [[nodiscard]] DraftFiles files_of(const std::string& name) const;
+  /// Those in the folder `files` of `from` that the text names; see copy_used().
+  [[nodiscard]] Expected<std::vector<std::string>> copy_files(const std::string& name, const std::string& text,
+                                                              const std::filesystem::path& from,
+                                                              const std::filesystem::path& to) const;
+  [[nodiscard]] std::filesystem::path exhibit_file(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> exhibit_names() const;
+  [[nodiscard]] std::vector<std::string> draft_names() const;
+
+  std::filesystem::path scenarios_;
+  std::filesystem::path state_;
+  std::map<std::string, Open> open_;
+  std::map<std::filesystem::path, KnownTitle> titles_;
+  std::uint64_t uses_ = 0;
+};
+
+/// Whether it can be an exhibit's name, and so a folder's: 1 to 31 of a-z, 0-9 and '-', with a letter or digit first; not "discarded".
+[[nodiscard]] bool is_exhibit_name(std::string_view name);
+
+}  // namespace mechane::studio
