@@ -1,4 +1,4 @@
-// One page for each address: a kiosk's display, the operators' console. Each loads only what it needs.
+// One page for each address: a kiosk's display, the operators' console, the studio. Each loads only what it needs.
 import { mount } from 'svelte';
 import './app.css';
 import { keepShell, rememberKiosk, rememberedKiosk } from './pwa/install';
@@ -16,10 +16,17 @@ async function start(): Promise<void> {
   const target = document.getElementById('app')!;
   const kiosk = kioskHere();
   if (kiosk) {
-    rememberKiosk(kiosk);
+    if (window.top === window) rememberKiosk(kiosk);  // within the studio it is a draft's
     const [{ default: Kiosk }, { stereoOf }] = await Promise.all([import('./kiosk/Kiosk.svelte'), import('./scene/stereo')]);
     const given = new URLSearchParams(location.search);
-    mount(Kiosk, { target, props: { kiosk, token: given.get('token') ?? '', stereo: stereoOf(given) } });
+    const [token, language] = [given.get('token') ?? '', given.get('language') ?? ''];
+    mount(Kiosk, { target, props: { kiosk, token, language, stereo: stereoOf(given) } });
+  } else if (location.pathname.startsWith('/playback/')) {
+    const { default: Playback } = await import('./playback/Playback.svelte');
+    mount(Playback, { target, props: { visit: decodeURIComponent(location.pathname.slice('/playback/'.length)) } });
+  } else if (location.pathname === '/studio' || location.pathname.startsWith('/studio/')) {
+    const { default: Studio } = await import('./studio/Studio.svelte');
+    mount(Studio, { target });
   } else {
     const { default: Console } = await import('./console/Console.svelte');
     mount(Console, { target });

@@ -27,6 +27,7 @@ export function frameBytes(spec: FrameSpec): ArrayBuffer {
   const view = new DataView(new ArrayBuffer(size));
   view.setUint8(0, 1);
   view.setUint8(1, 1);
+  view.setUint16(2, 54_321, true); // when it was sent
   view.setUint32(4, spec.skipped ?? 0, true);
   view.setBigUint64(8, BigInt(spec.sequence ?? 1), true);
   view.setBigUint64(16, BigInt(spec.tick ?? 0), true);

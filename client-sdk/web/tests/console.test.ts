@@ -1,5 +1,7 @@
 import { expect, it, vi } from 'vitest';
 import { Api, kioskOf, serverOf } from '../src/console/api';
+import { ExhibitDesk } from '../src/console/exhibit_desk.svelte';
+import { exhibitsOf, lasting, otherTitles, titleOf, worldsOf } from '../src/console/exhibits';
 import { faultsOf } from '../src/console/faults';
 import { bytesOf, hoursFrom, operationsOf, orders } from '../src/console/operations';
 
@@ -40,4 +42,44 @@ it('says until when, and is content with a gateway without records', async () =>
   expect(ask.mock.calls[0]![0]).toBe('/api/kiosks/kiosk-1/maintenance');
   expect(ask.mock.calls[0]![1]!.body).toBe('{"on":true,"minutes":15}');
   expect(await orders(new Api(async () => answer(404, { error: 'no records' }))).visitsOfADay()).toBeNull();
+});
+
+it('reads exhibits, whatever is missing, and tells of their worlds', () => {
+  const told = exhibitsOf({ server: 's', exhibits: [
+    { id: 'screw', title: { el: 'Κοχλίας', en: 'Screw' }, worlds: 2, formerWorlds: 1 },
+    { id: 'crane', title: {} }, { title: { en: 'no id' } },
+  ] });
+  const [screw, crane] = told.exhibits;
+  expect(told.exhibits.map(titleOf)).toEqual(['Screw', 'crane']);
+  expect(otherTitles(screw!)).toEqual([['el', 'Κοχλίας']]);
+  expect(worldsOf(screw!)).toBe('2 worlds open, 1 world with a visit that finishes on its former form');
+  expect(worldsOf(crane!)).toBe('not open');
+  expect(() => [exhibitsOf(null), exhibitsOf({ exhibits: [3], loadable: 'x' })]).not.toThrow();
+  expect([lasting(42.9), lasting(185)]).toEqual(['42 s', '3 min 5 s']);
+});
+
+it('an order says whether the file was another one, and a refusal where it is wrong', async () => {
+  let hash = 'a';
+  const exhibits = (): object => ({ server: 's', exhibits: [{ id: 'screw', contentHash: hash }], loadable: ['crane'] });
+  const posted: unknown[] = [];
+  const desk = new ExhibitDesk(new Api(async (path, init) => {
+    if (init?.method !== 'POST') return answer(200, exhibits());
+    posted.push([path, init.body]);
+    if (!String(path).endsWith('/load')) return answer(200, {});
+    return answer(409, { error: 'no body "X"', place: 'crane.x3d:7', remedy: 'name one' });
+  }));
+  await desk.look();
+  await desk.order('screw', 'replace');
+  expect(desk.actions.screw!.said).toMatch(/has not changed/);
+  hash = 'b';
+  await desk.order('screw', 'replace', true);
+  expect(desk.actions.screw!.said).toMatch(/new form is in use/);
+  await desk.order('crane', 'load');
+  expect([desk.actions.crane!.trouble, desk.actions.crane!.said]).toEqual([true, 'No body "X". Where: crane.x3d:7. Name one.']);
+  expect(posted).toEqual([
+    ['/api/exhibits/screw/replace', '{"now":false}'], ['/api/exhibits/screw/replace', '{"now":true}'],
+    ['/api/exhibits/crane/load', '{"now":false}'],
+  ]);
+  await desk.order('gone', 'retire');
+  expect(desk.others()).toEqual(['crane', 'gone']);
 });

@@ -1,6 +1,6 @@
-import { Box3, BoxGeometry, Group, Matrix4, Mesh, PerspectiveCamera, Vector3 } from 'three';
+import { Box3, BoxGeometry, Group, Matrix4, Mesh, PerspectiveCamera, Quaternion, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { applyTo, aboveCaption, cameraAt, frameBox, halfTan, narrowedTo, seenBox } from '../src/scene/camera';
+import { applyTo, aboveCaption, cameraAt, frameBox, halfTan, narrowedTo, seenBox, viewOf } from '../src/scene/camera';
 import { effectsOf, flowOf, levelOf } from '../src/scene/effects';
 import { fingerTip, handDistance, kPinching, kPointing, placeHand } from '../src/scene/hand_shape';
 import { isTakeable, pixelOf, placeToTake, underFinger, type PickScene } from '../src/scene/picking';
@@ -9,7 +9,7 @@ import { ShortRandom } from '../src/scene/random';
 import { ropeRings } from '../src/scene/ropes';
 import { StepView, workplace } from '../src/scene/step_view';
 import { decodeFrame } from '../src/wire/frame';
-import type { Affordance, Effect, Presentation, World } from '../src/wire/messages';
+import type { Affordance, Effect, PoseArray, Presentation, World } from '../src/wire/messages';
 import { frameBytes } from './bytes';
 
 const kStill: [number, number, number, number, number, number, number] = [0, 0, 0, 0, 0, 0, 1];
@@ -40,6 +40,17 @@ describe('a camera', () => {
     expect(at(usual, top)).toBeCloseTo(1, 5);
     expect(at(wide, top)).toBeCloseTo(1, 1);
     expect(at(wide, new Vector3(0, 1 - 3 * Math.tan(0.4), 1))).toBeGreaterThan(-0.8);
+  });
+
+  it('is kept as the view that shows just the same above a caption', () => {
+    for (const pose of [[0, 1, 4, 0, 0, 0, 1], [2, 1.5, 3, -0.12, 0.28, 0.035, 0.95]] as PoseArray[]) {
+      const shown = aboveCaption(cameraAt({ name: '', pose, fov: 0.8 }, box));
+      const kept = viewOf(shown, 1.6);
+      expect(kept.fov).toBeCloseTo(0.8, 9);
+      const turn = new Quaternion(...kept.pose.slice(3)).angleTo(new Quaternion(...pose.slice(3)).normalize());
+      expect(turn).toBeLessThan(1e-6);
+      expect(kept.pose.slice(0, 3)).toEqual(pose.slice(0, 3));
+    }
   });
 
   it('narrowed to a window shows just that window', () => {

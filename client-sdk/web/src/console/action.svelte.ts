@@ -19,7 +19,7 @@ export class Action {
       return true;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
-      this.said = `${error.message} ${error.remedy}`;
+      this.said = error.told;
       this.trouble = true;
       return false;
     } finally {

@@ -1,6 +1,7 @@
 // The gateway's JSON API, as the console uses it. An error is a sentence: what happened, and what to do.
 
-import { remarksOf, visitsAddress, visitsOf, type Remark, type VisitsFigures, type VisitsQuery } from './visits';
+import { playbackOf, remarksOf, visitsAddress, visitsOf } from './visits';
+import type { PlaybackState, Remark, VisitsFigures, VisitsQuery } from './visits';
 
 export interface User {
   user: string;
@@ -53,13 +54,23 @@ export const list = (v: unknown): unknown[] => (Array.isArray(v) ? v : []);
 export const text = (v: unknown): string => (typeof v === 'string' ? v : '');
 export const number = (v: unknown): number => (typeof v === 'number' && Number.isFinite(v) ? v : 0);
 
+/** The gateway's words as a sentence. */
+export const sentence = (words: string): string =>
+  words ? `${words[0]!.toUpperCase()}${words.slice(1)}${/[.!?…]$/.test(words) ? '' : '.'}` : '';
+
 export class ApiError extends Error {
+  /** `place`: the file and the line, where the gateway told of one. */
   constructor(
     readonly status: number,
     what: string,
     readonly remedy: string,
+    readonly place = '',
   ) {
     super(what);
+  }
+  /** What happened, where, and what to do. */
+  get told(): string {
+    return [sentence(this.message), this.place && `Where: ${this.place}.`, sentence(this.remedy)].filter((part) => part !== '').join(' ');
   }
 }
 
@@ -111,24 +122,34 @@ export class Api {
     const said = await this.json('POST', `/api/visits/${encodeURIComponent(visit)}/remarks`, at === null ? { text } : { text, at });
     return remarksOf(fields(said).remarks);
   }
+  /** Begins to prepare a visit's playback, or tells how far it is. */
+  async playback(visit: string, begin: boolean): Promise<PlaybackState> {
+    const address = `/api/visits/${encodeURIComponent(visit)}/playback`;
+    return playbackOf(await (begin ? this.json('POST', address, {}) : this.json('GET', address)));
+  }
+  async tape(visit: string): Promise<ArrayBuffer> {
+    return (await this.send('GET', `/api/visits/${encodeURIComponent(visit)}/tape`)).arrayBuffer();
+  }
 
+  /** A Blob is sent as the bytes that it is. */
   async json(method: string, path: string, body?: object): Promise<unknown> {
     const answer = await this.send(method, path, body);
     return answer.status === 204 ? {} : answer.json();
   }
   private async send(method: string, path: string, body?: object): Promise<Response> {
-    const headers: Record<string, string> = body ? { 'Content-Type': 'application/json' } : {};
+    const bytes = body instanceof Blob;
+    const headers: Record<string, string> = body ? { 'Content-Type': bytes ? 'application/octet-stream' : 'application/json' } : {};
     if (this.user && method === 'POST') headers['X-Mechane-CSRF'] = this.user.csrf;
     let answer: Response;
     try {
-      answer = await this.ask(path, { method, headers, ...(body && { body: JSON.stringify(body) }) });
+      answer = await this.ask(path, { method, headers, ...(body && { body: bytes ? body : JSON.stringify(body) }) });
     } catch {
       throw new ApiError(0, 'The gateway does not answer.', 'Look whether it runs and whether this device has a network.');
     }
     if (answer.ok) return answer;
     const said = fields(await answer.json().catch(() => ({})));
     if (answer.status === 401) this.user = null;
-    throw new ApiError(answer.status, text(said.error) || `The gateway answered ${answer.status}.`, text(said.remedy));
+    throw new ApiError(answer.status, text(said.error) || `The gateway answered ${answer.status}.`, text(said.remedy), text(said.place));
   }
 }
 

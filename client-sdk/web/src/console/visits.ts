@@ -86,6 +86,13 @@ export interface VisitsFigures {
   activities: ActivityFigures[];
   recent: Visit[];
 }
+export interface PlaybackState {
+  state: 'preparing' | 'ready' | 'failed';
+  /** 0 to 1. */
+  share: number;
+  trouble: string;
+  visit: Visit;
+}
 export interface VisitsQuery {
   days: number;
   exhibit: string;
@@ -164,6 +171,12 @@ export function visitsOf(v: unknown): VisitsFigures {
     activities: list(all.activities).map(activityOf),
     recent: list(all.recent).map(visitOf),
   };
+}
+
+export function playbackOf(v: unknown): PlaybackState {
+  const p = fields(v);
+  const state = p.state === 'ready' || p.state === 'failed' ? p.state : 'preparing';
+  return { state, share: number(p.share), trouble: text(p.trouble), visit: visitOf(p.visit) };
 }
 
 export function visitsAddress(path: string, query: VisitsQuery): string {

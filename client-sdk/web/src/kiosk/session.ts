@@ -20,6 +20,8 @@ const kHoverEvery_ms = 100;
 const kReadTogether = 0.14;
 /** A world that is joined but sends nothing is not there at the moment. */
 const kSilent_ms = 2_000;
+/** So many frames in a row, a second of them, that cannot be read: the page and the gateway are of different versions. */
+const kUnreadable = 30;
 
 export interface Label {
   text: string;
@@ -36,6 +38,8 @@ export interface Shown {
   online: boolean;
   /** The gateway was looked for in vain. */
   missed: boolean;
+  /** What comes is of another version than this page. */
+  outdated: boolean;
   /** The world moves. */
   live: boolean;
   label: Label | null;
@@ -59,6 +63,8 @@ export class KioskSession {
   private frame: Frame | null = null;
   private frameAt = -Infinity;
   private malformed = 0;
+  /** Frames in a row that could not be read. */
+  private unread = 0;
   private events: WorldEvent[] = [];
   private hover: Vector3 | null = null;
   private hoverObject: number | null = null;
@@ -67,6 +73,8 @@ export class KioskSession {
   private reportAt = 0;
   private lastAt = 0;
   private corner: InsetPlace | null = null;
+  /** In a page within another that does not show it now; and before the page has a size. */
+  private hidden = true;
   private muted = false;
   private ended = false;
   private headset: Headset | null = null;
@@ -77,6 +85,8 @@ export class KioskSession {
     surface: HTMLElement,
     kiosk: string,
     private readonly token: string,
+    /** In which the page begins; "": the exhibit's own. */
+    private language: string,
     stereo: StereoSetup,
     private readonly changed: (shown: Shown) => void,
   ) {
@@ -148,6 +158,8 @@ export class KioskSession {
     });
   }
   resize(width: number, height: number, corner: InsetPlace | null): void {
+    this.hidden = width === 0 || height === 0;
+    if (this.hidden) return;
     this.picture.resize(width, height);
     this.corner = corner;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
@@ -177,7 +189,8 @@ export class KioskSession {
   look(): object {
     const { state, online, malformed, frame, picture } = this;
     const complete = picture.world.complete;
-    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, things: this.things(),
+    const view = picture.view();
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, view, things: this.things(),
       headset: this.headset?.look() ?? null, ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
@@ -203,6 +216,7 @@ export class KioskSession {
   };
   private goOn(online: boolean): void {
     this.online = online;
+    this.unread = 0;
     if (!online) {
       this.missed = true;
       this.state = { ...this.state, pointer: null, tracked: null };
@@ -222,6 +236,7 @@ export class KioskSession {
     }
     const before = this.state;
     this.state = reduce(before, message);
+    if (message.type === 'overlay') this.chooseLanguage();
     if (before.world?.world !== this.state.world?.world) {
       this.history.clear();
       this.frame = null;
@@ -229,12 +244,20 @@ export class KioskSession {
     this.picture.set(this.state);
     this.sound.volume = this.muted ? 0 : this.state.volume;
   }
+  private chooseLanguage(): void {
+    const { language, languages } = this.state.overlay!;
+    if (this.language === '' || languages.length === 0) return;
+    if (this.language !== language && languages.includes(this.language)) this.connection.send({ type: 'language', code: this.language });
+    this.language = '';
+  }
   private hearFrame(bytes: ArrayBuffer): void {
     const frame = decodeFrame(bytes);
     if (!frame) {
       ++this.malformed;
+      ++this.unread;
       return;
     }
+    this.unread = 0;
     const now = performance.now();
     this.frameAt = now;
     // A restarted server counts from the beginning.
@@ -247,6 +270,7 @@ export class KioskSession {
     requestAnimationFrame(this.draw);
     if (this.headset) return;
     this.pass(now);
+    if (this.hidden) return;
     const hands = this.state.pointer ? [this.state.pointer, ...this.state.pointer.others] : [];
     const dragging = this.pointer.isDown || this.keys.holds || hands.some((h) => h.phase === 'holding' || h.phase === 'reaching');
     this.picture.draw(this.frame, now, dragging, this.corner);
@@ -345,6 +369,7 @@ export class KioskSession {
       state: this.state,
       online: this.online,
       missed: this.missed,
+      outdated: this.unread >= kUnreadable,
       live: this.isLive(),
       label: this.label(),
       things: this.things(),

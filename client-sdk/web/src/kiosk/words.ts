@@ -2,9 +2,11 @@
 
 export interface Words {
   waiting: string;
+  loading: string;
   lost: string;
   offline: string;
   refused: string;
+  outdated: string;
   picture: string;
   take: string;
   closeUp: string;
@@ -29,9 +31,11 @@ export interface Words {
 
 const kEnglish: Words = {
   waiting: 'The exhibit is getting ready …',
+  loading: 'The exhibit is being fetched …',
   lost: 'One moment, the exhibit will go on …',
   offline: 'One moment, the exhibit will be back …',
   refused: 'This page may not show the exhibit.',
+  outdated: 'This page is of another version than the museum’s server. Load it again.',
   picture: 'The machine. Tab goes to what can be taken, Space takes it, arrows move it.',
   take: 'Take',
   closeUp: 'Close up',
@@ -55,9 +59,11 @@ const kEnglish: Words = {
 };
 const kGreek: Words = {
   waiting: 'Το έκθεμα ετοιμάζεται …',
+  loading: 'Το έκθεμα φορτώνεται …',
   lost: 'Μια στιγμή, το έκθεμα συνεχίζει αμέσως …',
   offline: 'Μια στιγμή, το έκθεμα επιστρέφει …',
   refused: 'Η σελίδα αυτή δεν μπορεί να δείξει το έκθεμα.',
+  outdated: 'Η σελίδα είναι άλλης έκδοσης από τον διακομιστή του μουσείου. Φορτώστε την ξανά.',
   picture: 'Η μηχανή. Με το Tab πάτε σε ό,τι πιάνεται, με το διάστημα το πιάνετε, με τα βέλη το μετακινείτε.',
   take: 'Πιάστε',
   closeUp: 'Από κοντά',

@@ -56,7 +56,8 @@ worker.addEventListener('fetch', (event) => {
   if (request.method !== 'GET' || origin !== location.origin) return;
   const isPage = pathname === '/' || /^\/(kiosk|console)(\/|$)/.test(pathname);
   if (request.mode === 'navigate') {
-    if (isPage) event.respondWith(page(request));
+    // A page within another is a preview of the studio: without the gateway there is none.
+    if (isPage && request.destination === 'document') event.respondWith(page(request));
   } else if (__SHELL__.includes(pathname)) {
     event.respondWith(fromShell(pathname, request));
   }

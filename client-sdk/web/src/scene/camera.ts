@@ -97,13 +97,25 @@ export function cameraAt(view: View, interest: Box3): Camera {
   return { p, target, up: new Vector3(0, 1, 0).applyQuaternion(turn), fov: view.fov, leastAcross: view.fov, roomBelow: 1 };
 }
 
+/** The caption's share of the picture's half. */
+const kCaption = 0.12;
 /** Widens the view downwards by the caption's height. */
 export function aboveCaption(camera: Camera): Camera {
   const half = Math.tan(camera.fov / 2);
-  const wider = half / (1 - 0.12);
+  const wider = half / (1 - kCaption);
   const ahead = camera.target.clone().sub(camera.p);
   const up = camera.up.clone().addScaledVector(ahead, -camera.up.dot(ahead) / ahead.lengthSq()).normalize();
   return { ...camera, fov: 2 * Math.atan(wider), target: camera.target.clone().addScaledVector(up, -ahead.length() * (wider - half)) };
+}
+
+/** The author's view that shows, above the caption, what this camera shows in a picture wider than high. */
+export function viewOf(camera: Camera, aspect: number): Omit<View, 'name'> {
+  const wider = halfTan(camera, aspect);
+  const { right, up, back } = axesOf(camera);
+  const turn = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(right, up, back));
+  turn.premultiply(new Quaternion().setFromAxisAngle(right, Math.atan(kCaption * wider)));
+  const { p } = camera;
+  return { pose: [p.x, p.y, p.z, turn.x, turn.y, turn.z, turn.w], fov: 2 * Math.atan(wider * (1 - kCaption)) };
 }
 
 /** Where a box appears in the plane one metre ahead; empty: it is, or some of it is behind the camera. */

@@ -118,6 +118,10 @@ export class Picture {
     [this.width, this.height] = [Math.max(this.places[0]!.seenWidth, 1), Math.max(this.places[0]!.seenHeight, 1)];
     this.applyQuality();
   }
+  /** The next picture draws its shadows: for a page that draws only when something has changed. */
+  renewShadows(): void {
+    this.pictures = 0;
+  }
   get isLost(): boolean {
     return this.lost;
   }

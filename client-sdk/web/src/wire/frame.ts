@@ -104,7 +104,7 @@ function readRope(reader: Reader): RopeFrame | null {
 export function decodeFrame(bytes: ArrayBuffer): Frame | null {
   if (bytes.byteLength < kHeaderBytes) return null;
   const view = new DataView(bytes);
-  if (view.getUint8(0) !== 1 || view.getUint8(1) !== 1 || view.getUint16(2, true) !== 0) return null;
+  if (view.getUint8(0) !== 1 || view.getUint8(1) !== 1) return null;
   const n = view.getUint32(32, true);
   const m = view.getUint32(36, true);
   const h = view.getUint32(40, true);

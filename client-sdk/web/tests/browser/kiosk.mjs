@@ -32,12 +32,13 @@ async function assertAccessible(what) {
 
 const parts = {
   async 'the world is shown from one file, with the words of the gateway'() {
-    await page.goto(`${origin}/kiosk/k?token=t`);
+    await page.goto(`${origin}/kiosk/k?token=t&language=el`);
     const seen = await until(page, 'all is there', (s) => s.complete && s.sequence > 2 && s.things.length > 0, 60);
     assert.deepEqual(gateway.fetched, ['pulley-crane']);
     assert.deepEqual([seen.missing, seen.malformed], [[], 0]);
     assert.deepEqual(seen.things.map((t) => t.name), ['DRUM']);
     assert.equal(await page.textContent('h1'), 'The crane');
+    assert.deepEqual(heard('language').map((m) => m.code), ['el'], 'asked for once, as the address says');
     await assertAccessible('the kiosk');
   },
   async 'a finger presses with what its ray hits, in the view as it is drawn'() {
@@ -84,6 +85,13 @@ const parts = {
     gateway.say(Buffer.from([1, 1, 0, 0, 7]));
     gateway.say('{"type":');
     await until(page, 'two are counted', (s) => s.malformed === 2);
+  },
+  async 'a page that can read no frame says so, until it can'() {
+    const { frame } = gateway;
+    gateway.frame = () => Buffer.from([2, 1, 0, 0]);
+    await page.waitForSelector('.veil:has-text("Load it again")');
+    gateway.frame = frame;
+    await page.waitForSelector('.veil', { state: 'detached' });
   },
   async 'a gateway that is gone leaves a calm picture, and the page comes back by itself'() {
     const { port } = gateway;

@@ -1,4 +1,6 @@
 // A real headless Chromium at a kiosk's address, and a finger on its glass. Used by the scripts beside this file.
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { chromium } from 'playwright-core';
 
 const kFlags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
@@ -19,6 +21,14 @@ export async function openBrowser(more = {}) {
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
   return { browser, page, errors };
+}
+
+/** What axe finds on the page that keeps people out. */
+export async function barriers(page) {
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
+  const { violations } = await page.evaluate(() => window.axe.run({ resultTypes: ['violations'] }));
+  const serious = violations.filter((v) => v.impact === 'serious' || v.impact === 'critical');
+  return serious.map((v) => `${v.id}: ${v.help}; ${v.nodes[0].html.slice(0, 120)}`);
 }
 
 export const look = (page) => page.evaluate(() => window.mechane?.look());

@@ -1,4 +1,4 @@
-// A stand-in for the gateway: the built app, one mesh file of the tree, a world that stands still, and what the page says.
+// A stand-in for the gateway: the built app, one mesh file, a world that stands still, and what the page says.
 import { createReadStream, existsSync, readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
@@ -10,28 +10,31 @@ const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/c
   '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
 const kStill = [0, 0, 0, 0, 0, 0, 1];
 /** As the gateway has it: what the page may not do there, it may not do here. */
-const kPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; " +
-  "connect-src 'self' blob: ws:; media-src 'self' blob:; worker-src 'self' blob:";
+const policyFor = (pathname) => "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; " +
+  "connect-src 'self' blob: ws:; media-src 'self' blob:; worker-src 'self' blob:; " +
+  `frame-ancestors ${pathname.startsWith('/kiosk/studio-') ? "'self'" : "'none'"}`;
 
 /** The nodes of a .glb file that are things, with where they stand. */
-function thingsOf(model) {
-  const bytes = readFileSync(join(kModels, `${model}.glb`));
+function thingsOf(bytes) {
   const gltf = JSON.parse(bytes.toString('utf8', 20, 20 + bytes.readUInt32LE(12)));
   const nodes = gltf.scenes[0].nodes.map((k) => gltf.nodes[k]).filter((n) => n.name !== 'SCENE' && !n.name.startsWith('WATER_'));
   return nodes.map((n) => ({ name: n.name, pose: [...(n.translation ?? [0, 0, 0]), ...(n.rotation ?? [0, 0, 0, 1])] }));
 }
 
-function frameBytes(things, sequence) {
-  const out = Buffer.alloc(48 + 36 * things.length);
+function frameBytes(things, sequence, { tick, quantities }) {
+  const out = Buffer.alloc(48 + 36 * things.length + 4 * quantities.length);
   out.writeUInt16LE(0x0101, 0);
+  out.writeUInt16LE(54_321, 2); // when it was sent
   out.writeBigUInt64LE(BigInt(sequence), 8);
-  out.writeBigUInt64LE(BigInt(33 * sequence), 16);
+  out.writeBigUInt64LE(BigInt(tick), 16);
   out.writeUInt32LE(things.length, 32);
+  out.writeUInt32LE(quantities.length, 36);
   things.forEach(({ pose }, i) => {
     out.writeUInt32LE(i, 48 + 36 * i);
     out.writeUInt32LE(1, 52 + 36 * i);
     pose.forEach((value, k) => out.writeFloatLE(value, 56 + 36 * i + 4 * k));
   });
+  quantities.forEach((value, i) => out.writeFloatLE(value, 48 + 36 * things.length + 4 * i));
   return out;
 }
 
@@ -72,10 +75,13 @@ export class StandIn {
   /** Messages of tracked hands. */
   hands = [];
   sockets = new Set();
+  frame = frameBytes;
 
-  constructor(app, model, takeable) {
+  /** `file`: the mesh file; without it, the tree's own of the model's name. */
+  constructor(app, model, takeable, file = readFileSync(join(kModels, `${model}.glb`))) {
     this.app = app;
-    this.things = thingsOf(model);
+    this.file = file;
+    this.things = thingsOf(file);
     this.messages = worldOf(model, this.things, takeable);
     this.fetched = [];
   }
@@ -97,11 +103,15 @@ export class StandIn {
     for (const socket of this.sockets) socket.send(sent);
   }
 
+  /** The tick and the quantities of a frame. */
+  moment(sequence) {
+    return { tick: 33 * sequence, quantities: [] };
+  }
   meet(socket) {
     this.sockets.add(socket);
     for (const message of this.messages) socket.send(JSON.stringify(message));
     let sequence = 0;
-    const pace = setInterval(() => socket.send(frameBytes(this.things, ++sequence)), 33);
+    const pace = setInterval(() => socket.send(this.frame(this.things, ++sequence, this.moment(sequence))), 33);
     socket.on('message', (message, binary) => (binary ? this.hands.push(message) : this.heard.push(JSON.parse(String(message)))));
     socket.on('close', () => {
       clearInterval(pace);
@@ -111,14 +121,18 @@ export class StandIn {
   answer(request, response) {
     const { pathname } = new URL(request.url, 'http://stand-in');
     const content = /^\/content\/([\w-]+)$/.exec(pathname);
-    if (content) this.fetched.push(content[1]);
-    const file = content ? join(kModels, `${content[1]}.glb`) : pathname.startsWith('/app/') ? join(this.app, pathname.slice(4))
-      : join(this.app, 'index.html');
+    if (content) {
+      this.fetched.push(content[1]);
+      response.writeHead(200, { 'content-type': 'application/octet-stream' });
+      return response.end(this.file);
+    }
+    const file = pathname.startsWith('/app/') ? join(this.app, pathname.slice(4)) : join(this.app, 'index.html');
     if (pathname.startsWith('/api/') || !existsSync(file)) {
       response.writeHead(pathname === '/api/me' ? 401 : 404, { 'content-type': 'application/json' });
       return response.end('{"error":"nobody is signed in","remedy":"sign in"}');
     }
-    response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream', 'content-security-policy': kPolicy,
+    response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream',
+      'content-security-policy': policyFor(pathname),
       ...(pathname === '/app/sw.js' && { 'service-worker-allowed': '/' }) });
     return createReadStream(file).pipe(response);
   }

@@ -1,5 +1,5 @@
 // turn.mjs ADDRESS: takes a crank with a finger, reloads the page in mid-grasp, takes it again and turns it by a quarter.
-import { Finger, openBrowser, take, until } from './page.mjs';
+import { Finger, look, openBrowser, take, until } from './page.mjs';
 
 const kQuarter = Math.PI / 2;
 const [address] = process.argv.slice(2);
@@ -28,6 +28,8 @@ try {
   if (turned < kQuarter) throw new Error(`the crank went round by ${turned.toFixed(1)} rad only`);
   await finger.lift();
   await until(page, 'the hand has let go', (s) => s.state.pointer.phase === 'resting');
+  const { malformed, sequence } = await look(page);
+  if (malformed > 0 || sequence === 0) throw new Error(`the page cannot read the gateway: ${malformed} malformed, frame ${sequence}`);
   if (errors.length > 0) throw new Error(`the page has errors: ${errors.join('; ')}`);
   console.log(JSON.stringify({ first, step: held.state.world.step, turned, renderer: held.renderer }));
 } finally {

@@ -1,0 +1,45 @@
+// Meshes and sounds of a draft, as the gateway lists them, and what a body of a mesh weighs.
+import { fields, list, number, text } from '../console/api';
+
+export interface DraftFile {
+  name: string;
+  /** As the exhibit names it. */
+  url: string;
+  kind: 'mesh' | 'sound';
+  bytes: number;
+  published: boolean;
+  uses: { place: string; line: number }[];
+}
+export interface MeshNode {
+  name: string;
+  /** m³; null: it is open. */
+  volume: number | null;
+}
+
+export const kMostBytes = 64 * 1024 * 1024;
+export const kEndings = ['.glb', '.obj', '.stl', '.ply', '.x3d', '.ogg', '.wav', '.flac'];
+/** kg/m³. */
+export const kDensities = { oak: 700, pine: 500, stone: 2600, bronze: 8700, iron: 7800, lead: 11300 } as const;
+export type Material = keyof typeof kDensities;
+
+export const filesOf = (v: unknown): DraftFile[] => list(fields(v).files).map(fields).map((f) => ({
+  name: text(f.name), url: text(f.url), kind: f.kind === 'sound' ? 'sound' : 'mesh', bytes: number(f.bytes),
+  published: f.published === true, uses: list(f.uses).map(fields).map((use) => ({ place: text(use.place), line: number(use.line) })),
+}));
+export const nodesOf = (v: unknown): MeshNode[] => list(fields(v).nodes).map(fields)
+  .map((n) => ({ name: text(n.name), volume: typeof n.volume === 'number' ? n.volume : null }));
+
+/** The name that the gateway takes: "Τροχός 2.GLB" is "2.glb". */
+export function plainName(given: string): string {
+  const dot = given.lastIndexOf('.');
+  const ending = dot < 0 ? '' : given.slice(dot).toLowerCase();
+  const plain = given.slice(0, dot < 0 ? undefined : dot).normalize('NFD').replace(/\p{M}/gu, '').replace(/[^A-Za-z0-9_-]+/g, '-')
+    .replace(/^[-_]+|[-_]+$/g, '');
+  return `${plain === '' ? 'file' : plain.slice(0, 50)}${ending}`;
+}
+export const isTaken = (name: string): boolean => kEndings.some((ending) => name.endsWith(ending));
+/** kg, in three digits; "": it cannot be known. */
+export const massOf = (node: MeshNode | undefined, material: Material): string =>
+  (node?.volume ? String(Number((node.volume * kDensities[material]).toPrecision(3))) : '');
+export const sizeOf = (bytes: number): string =>
+  (bytes < 1024 ? `${bytes} B` : bytes < 1024 * 1024 ? `${Math.round(bytes / 1024)} KiB` : `${(bytes / 1024 / 1024).toFixed(1)} MiB`);

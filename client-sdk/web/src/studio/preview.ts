@@ -1,0 +1,58 @@
+// A draft that runs in a world of its own: what the gateway tells of it, read from its JSON, whatever is missing.
+import { fields, list, number, text } from '../console/api';
+import type { Texts } from '../wire/messages';
+import { textsOf } from './view';
+
+export type PreviewState = 'none' | 'starting' | 'running' | 'failed';
+export interface StillReason {
+  kind: string;
+  text: Texts;
+  remedy: Texts;
+  /** Of the field that decides it; "": there is none. */
+  path: string;
+}
+/** A body that does not move now, and why. */
+export interface Still {
+  def: string;
+  reasons: StillReason[];
+}
+export interface Preview {
+  state: PreviewState;
+  /** Of the draft, as it was when this began. */
+  revision: number;
+  /** World time by real time: 0 is paused, 1 is real time. */
+  pace: number;
+  /** The kiosk's page, and its socket. */
+  address: string;
+  socket: string;
+  /** The last lines of its log. */
+  said: string[];
+  activity: string;
+  step: string;
+  still: Still[];
+}
+/** What is asked of one that runs: how fast, or, while it is paused, so many ticks of 1 ms. */
+export type Pacing = { pace: number } | { ticks: number };
+
+const kStates: readonly string[] = ['starting', 'running', 'failed'];
+const stillOf = (v: unknown): Still => {
+  const s = fields(v);
+  const reasons = list(s.reasons).map(fields).map((r) => (
+    { kind: text(r.kind), text: textsOf(r.text), remedy: textsOf(r.remedy), path: text(r.path) }));
+  return { def: text(s.def), reasons };
+};
+
+export function previewOf(v: unknown): Preview {
+  const p = fields(v);
+  return {
+    state: kStates.includes(text(p.state)) ? (p.state as PreviewState) : 'none',
+    revision: number(p.revision),
+    pace: typeof p.pace === 'number' ? number(p.pace) : 1,
+    address: text(p.address),
+    socket: text(p.socket),
+    said: list(p.said).map(text),
+    activity: text(p.activity),
+    step: text(p.step),
+    still: list(p.still).map(stillOf),
+  };
+}

@@ -1,0 +1,188 @@
+// The draft's preview as the page has it: what the gateway says of it once a second, what its world sends, what is asked of it.
+import { ApiError } from '../console/api';
+import { Connection } from '../wire/connection';
+import { decodeFrame } from '../wire/frame';
+import { kNothingKnown, parseMessage, reduce, type KioskState, type Quantity } from '../wire/messages';
+import type { Draft } from './draft';
+import { wantedIn } from './flow';
+import type { Preview } from './preview';
+import { Series } from './preview_series';
+import { sentence, type StudioRequests } from './requests';
+import type { View } from './view';
+
+const kLookEvery_ms = 1_000;
+/** While none runs: another author may start it. */
+const kLookIdly_ms = 5_000;
+const kMostOrders = 4;
+const kDrawEvery_ms = 100;
+/** A page that nobody sees lets go of the preview, so that the gateway can end it. */
+const kUnseen_ms = 600_000;
+
+export class PreviewDesk {
+  /** Null: the gateway was not asked yet. */
+  now = $state.raw<Preview | null>(null);
+  trouble = $state('');
+  /** Orders are on their way. */
+  busy = $state(false);
+  /** The page is open, and was seen lately. */
+  seen = $state(false);
+  quantities = $state.raw<Quantity[]>([]);
+  /** By quantity, where the author has chosen; the others are plotted where a step waits for them. */
+  chosen = $state<Record<string, boolean>>({});
+  /** Seconds of world time in the plots; 0: all. */
+  window_s = $state(30);
+  /** Grows when the series has something new to draw. */
+  drawn = $state(0);
+  readonly series = new Series();
+  private pace = 1;
+  private world: KioskState = kNothingKnown;
+  private connection: Connection | null = null;
+  private socket = '';
+  private stale = false;
+  private drawnAt = 0;
+  private asked = 0;
+  private orders = 0;
+  private line = Promise.resolve();
+  private next: ReturnType<typeof setTimeout> | undefined;
+  private unseen: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly name: string,
+    private readonly requests: StudioRequests,
+    private readonly draft: Draft,
+  ) {}
+
+  get runs(): boolean {
+    return this.now?.state === 'running';
+  }
+  get isOn(): boolean {
+    return this.runs || this.now?.state === 'starting';
+  }
+  /** The part of the page is shown for the first time. */
+  begin(): void {
+    if (this.seen) return;
+    document.addEventListener('visibilitychange', this.noteSeen);
+    this.wake();
+  }
+  /** Signed in again. */
+  hurry(): void {
+    if (this.seen) void this.look();
+  }
+  end(): void {
+    document.removeEventListener('visibilitychange', this.noteSeen);
+    clearTimeout(this.unseen);
+    this.sleep();
+  }
+  /** Starts it, or starts it anew, with the draft as it is stored. */
+  start(revision: number): Promise<void> {
+    return this.order(() => this.requests.startPreview(this.name, revision));
+  }
+  stop(): Promise<void> {
+    return this.order(() => this.requests.stopPreview(this.name));
+  }
+  setPace(pace: number): Promise<void> {
+    return this.order(() => this.requests.pacePreview(this.name, { pace }));
+  }
+  /** Pauses, or goes on as before. */
+  togglePause(): Promise<void> {
+    return this.setPace(this.now?.pace === 0 ? this.pace : 0);
+  }
+  step(ticks: number): Promise<void> {
+    return this.order(() => this.requests.pacePreview(this.name, { ticks }));
+  }
+  /** Names of the quantities that are plotted, in the exhibit's order. */
+  plotted(view: View): string[] {
+    const wanted = new Set(wantedIn(view, this.now?.activity ?? '').map((w) => w.quantity));
+    const usual = this.quantities.some((q) => wanted.has(q.name)) ? wanted : new Set(this.quantities.slice(0, 2).map((q) => q.name));
+    return this.quantities.map((q) => q.name).filter((name) => this.chosen[name] ?? usual.has(name));
+  }
+
+  private noteSeen = (): void => {
+    clearTimeout(this.unseen);
+    if (document.hidden) this.unseen = setTimeout(() => this.sleep(), kUnseen_ms);
+    else if (!this.seen) this.wake();
+  };
+  private wake(): void {
+    this.seen = true;
+    void this.look();
+  }
+  private sleep(): void {
+    this.seen = false;
+    clearTimeout(this.next);
+    this.listen('');
+  }
+  private look(): Promise<void> {
+    return this.ask(() => this.requests.preview(this.name));
+  }
+  /** One after another, so that each step is done; a key that is held down does not run ahead of the world. */
+  private async order(request: () => Promise<Preview>): Promise<void> {
+    if (this.orders >= kMostOrders) return;
+    ++this.orders;
+    this.busy = true;
+    await (this.line = this.line.then(() => this.ask(request)));
+    this.busy = --this.orders > 0;
+  }
+  /** Answers may overtake each other: only the newest question's counts. */
+  private async ask(request: () => Promise<Preview>): Promise<void> {
+    const mine = ++this.asked;
+    clearTimeout(this.next);
+    try {
+      const said = await request();
+      if (mine === this.asked) this.take(said);
+    } catch (error) {
+      if (mine === this.asked) this.fail(error);
+    }
+    if (mine === this.asked && this.seen)
+      this.next = setTimeout(() => void this.look(), this.isOn ? kLookEvery_ms : kLookIdly_ms);
+  }
+  private take(said: Preview): void {
+    this.trouble = '';
+    if (said.pace > 0) this.pace = said.pace;
+    this.now = said;
+    if (this.seen) this.listen(said.state === 'running' ? said.socket : '');
+    if (said.state !== 'none' && said.revision > (this.draft.state.view?.revision ?? 0)) void this.draft.refresh();
+  }
+  private fail(error: unknown): void {
+    this.trouble = sentence(error);
+    const status = error instanceof ApiError ? error.status : 0;
+    if (status === 401) this.draft.signOut();
+    // Somebody has changed the draft: it is shown as it is now, and can be started.
+    if (status === 409) void this.draft.refresh();
+  }
+
+  /** To another world, or to none: "". */
+  private listen(socket: string): void {
+    if (socket === this.socket) return;
+    this.connection?.end();
+    this.socket = socket;
+    this.connection = null;
+    if (socket === '') return;
+    this.series.clear();
+    this.world = kNothingKnown;
+    this.connection = new Connection(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${socket}`, {
+      opened: () => undefined,
+      closed: () => undefined,
+      text: (json) => this.hearText(json),
+      bytes: (bytes) => this.hearFrame(bytes),
+    });
+  }
+  private hearText(json: string): void {
+    const message = parseMessage(json);
+    if (message?.type !== 'world') return;
+    this.world = reduce(this.world, message);
+    const { quantities, activity, step } = this.world.world!;
+    this.series.enter(activity, step, quantities.map((q) => q.name));
+    this.quantities = quantities;
+    this.stale = true;
+  }
+  private hearFrame(bytes: ArrayBuffer): void {
+    const frame = decodeFrame(bytes);
+    if (!frame) return;
+    if (frame.tick !== this.series.newest?.tick) this.stale = true;
+    this.series.add(frame.tick, frame.quantities);
+    const now = performance.now();
+    if (!this.stale || now - this.drawnAt < kDrawEvery_ms) return;
+    [this.stale, this.drawnAt] = [false, now];
+    ++this.drawn;
+  }
+}

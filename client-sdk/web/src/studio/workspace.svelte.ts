@@ -1,0 +1,81 @@
+// What the parts of the studio share: the draft, what is selected, what is typed and not yet taken.
+import type { Api } from '../console/api';
+import type { Edit, Vector } from './commands';
+import { Draft, type DraftState, type Outcome } from './draft';
+import type { JointPlan } from './joint';
+import { PreviewDesk } from './preview_desk.svelte';
+import { draftRequests, studio } from './requests';
+import type { Schema } from './schema';
+import { wordGroups } from './texts';
+import { pathId, treeOf, whereIs } from './tree';
+import { outlineAt, type View } from './view';
+import { studioWords, type Language } from './words';
+
+export type PartName = 'scene' | 'flow' | 'words' | 'files' | 'try' | 'versions';
+
+/** The language of the page, for all its parts. */
+export class PageLanguage {
+  code = $state<Language>(navigator.language.startsWith('el') ? 'el' : 'en');
+  words = $derived(studioWords(this.code));
+}
+
+export class Workspace {
+  readonly draft: Draft;
+  readonly requests: ReturnType<typeof studio>;
+  readonly preview: PreviewDesk;
+  state = $state.raw<DraftState>({ view: null, waiting: 0, away: false, signedOut: false, conflict: null, refusals: {} });
+  schema = $state.raw<Schema | null>(null);
+  selection = $state(pathId(''));
+  part = $state<PartName>('scene');
+  /** What stands beside the preview. */
+  beside = $state<'watch' | 'properties'>('watch');
+  /** By field: what was typed and is not in the draft. It survives everything but leaving the page. */
+  typed = $state<Record<string, string>>({});
+  /** The field that gets the focus once it is there. */
+  wanted = $state('');
+  /** The joint in the making. */
+  joint = $state<JointPlan | null>(null);
+  /** The middle of a thing, in W; the picture knows it better. */
+  middleOf = (def: string): Vector | null => (outlineAt(this.view, def)?.pose?.slice(0, 3) as Vector | undefined) ?? null;
+  tree = $derived(this.state.view ? treeOf(this.state.view) : []);
+  groups = $derived(this.state.view ? wordGroups(this.state.view) : []);
+
+  constructor(
+    readonly api: Api,
+    readonly name: string,
+    readonly page: PageLanguage,
+  ) {
+    this.requests = studio(api);
+    this.draft = new Draft(draftRequests(api, name), (state) => (this.state = state));
+    this.preview = new PreviewDesk(name, this.requests, this.draft);
+  }
+
+  get words() {
+    return this.page.words;
+  }
+  get view(): View {
+    return this.state.view!;
+  }
+  async edit(id: string, what: string, commands: Edit['commands']): Promise<Outcome> {
+    return this.draft.edit({ id, what, commands });
+  }
+  /** What was typed in a field is in the draft, or is given up. */
+  forget(id: string): void {
+    for (const known of Object.keys(this.typed)) if (known === id || known.startsWith(`${id}#`)) delete this.typed[known];
+    this.draft.forgive(id);
+  }
+  goTo(path: string, node: string): void {
+    if (/(^|\/)text\/[^/]+$/.test(path)) {
+      this.part = 'words';
+      this.wanted = path;
+      return;
+    }
+    const place = whereIs(this.tree, path, node);
+    if (!place) return;
+    // Beside a preview, so that what runs stays in sight.
+    if (this.part === 'try') this.beside = 'properties';
+    else this.part = 'scene';
+    this.selection = place.selection;
+    this.wanted = place.field;
+  }
+}

@@ -1,0 +1,308 @@
+import { afterEach, beforeEach, expect, it, vi } from 'vitest';
+import { ApiError } from '../src/console/api';
+import { degreesOf, numbersFrom, quaternionFrom, switchCommands, wordsCommand, written } from '../src/studio/commands';
+import { Draft, type DraftRequests, type DraftState, type Order } from '../src/studio/draft';
+import { filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/files';
+import { agentsOf, ruleText, stepsOf } from '../src/studio/flow';
+import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/joint';
+import { found } from '../src/studio/palette';
+import { beyond, keyIn, namesFor, schemaOf, tableAt } from '../src/studio/schema';
+import { missingIn, wordGroups } from '../src/studio/texts';
+import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
+import { childSets, freePlace, metaAt, stringAt, viewOf, libraryOf, versionsOf, type View } from '../src/studio/view';
+import { studioWords } from '../src/studio/words';
+
+const value = (name: string, value: unknown) => ({ kind: 'value', name, value, line: 1 });
+const set = (name: string, ...children: object[]) => ({ kind: 'set', name, line: 1, children });
+const view = (more: object = {}): View => viewOf({
+  name: 'crane', revision: 3, by: 'eleni',
+  outline: [{ def: 'DRUM', type: 'RigidBody', pose: [0, 1, 0, 0, 0, 0, 1], children: [] }, { def: 'AXLE', type: 'SingleAxisHingeJoint',
+    children: [] },
+    { def: 'FRONT', type: 'Viewpoint', children: [] }],
+  bodies: [{ def: 'DRUM', fields: { mass: '12' }, sets: { 'mechane:haptic': set('mechane:haptic', value('stiffness', 600)),
+    'mechane:body': set('mechane:body', set('text', value('title.el', 'Τύμπανο'))) } }],
+  joints: [{ def: 'AXLE', type: 'SingleAxisHingeJoint', fields: {}, sets: { 'mechane:agent': set('mechane:agent', value('type',
+    'geometry.hinge')) } }],
+  metadata: set('mechane:scenario', value('languages', ['el', 'en']), set('text', value('title.el', 'Γερανός'), value('title.en', 'Crane')),
+    set('agents', set('HOLD', value('type', 'simulation.grasp'), value('bodies', 'DRUM')), set('PEG')),
+    set('quantities', value('held', 'HOLD.active')),
+    set('activities', set('use', set('steps',
+      set('grasp', value('enable', ['HOLD', 'AXLE']), set('text', value('caption.el', 'Πιάστε'), value('hint.en', 'There'),
+        value('audio.el', 'a.ogg')),
+        set('trigger:1', value('quantity', 'held'), value('op', '>'), value('value', 0.5), value('holdSeconds', 0.2), value('next',
+          'turn'))),
+      set('turn', value('disable', 'HOLD'), set('trigger:1', value('match', 'any'),
+        set('rule:1', value('quantity', 'held'), value('op', '<'), value('value', 1)), set('rule:2', value('quantity', 'a'), value('op',
+          '='), value('value', 2))))))),
+    ),
+  ...more,
+});
+const schema = schemaOf({
+  metadata: [{ name: 'mechane:scenario', keys: [], sets: [{ name: 'activities', keys: [], sets: [{ name: '*', keys: [{ name: 'first',
+    type: 'string' }], sets: [
+    { name: 'steps', keys: [], sets: [{ name: '*', keys: [{ name: 'hintSeconds', type: 'number', least: 0, most: 3600 }], sets: [
+      { name: 'trigger:*', keys: [{ name: 'next', type: 'string', names: 'step' }], sets: [] }] }] }] }] }] },
+  { name: 'mechane:haptic', keys: [{ name: 'stiffness', type: 'number', least: 50 }], sets: [] }],
+  agents: [{ name: 'simulation.grasp', keys: [{ name: 'forceLimit', type: 'number' }] }, { name: 'geometry.hinge',
+    keys: [{ name: 'viscous', type: 'number' }] }],
+});
+
+it('reads the gateway’s answers, whatever is missing', () => {
+  for (const nothing of [null, [], 'x', { outline: 3, metadata: [], bodies: [null], problems: {} }])
+    expect(() => [viewOf(nothing), schemaOf(nothing), libraryOf(nothing), versionsOf(nothing), treeOf(viewOf(nothing)),
+      wordGroups(viewOf(nothing))]).not.toThrow();
+  expect(stringAt(view(), 'DRUM/mechane:haptic/stiffness')).toBe('600');
+  expect(childSets(metaAt(view(), 'activities/use/steps')).map((s) => s.name)).toEqual(['grasp', 'turn']);
+  expect(metaAt(view(), 'activities/none/steps')).toBeUndefined();
+});
+
+it('numbers are read as people write them, turns survive their degrees', () => {
+  expect(numbersFrom(' 0,5 -1;.25 1e-3 ')).toEqual([0.5, -1, 0.25, 0.001]);
+  for (const wrong of ['', 'a', '1 x', '0x10', '1,2,3', 'Infinity']) expect(numbersFrom(wrong)).toBeNull();
+  expect(written(0.1 + 0.2)).toBe('0.3');
+  for (const degrees of [[0, 0, 0], [90, 0, 0], [10, -20, 30], [0, 90, 0], [-170, 45, 100], [30, -90, 0]]) {
+    const q = quaternionFrom(degrees);
+    const again = quaternionFrom(degreesOf([0, 0, 0, ...q]));
+    expect(Math.abs(q.reduce((dot, x, i) => dot + x * again[i]!, 0))).toBeCloseTo(1, 9);
+  }
+  expect(degreesOf([0, 0, 0, ...quaternionFrom([10, -20, 30])])).toEqual([10, -20, 30]);
+});
+
+it('finds the table of a place, the names that fit there, and the end of a range', () => {
+  expect(tableAt(schema, view(), 'activities/use/steps/turn/trigger:7')?.keys[0]?.name).toBe('next');
+  expect(keyIn(tableAt(schema, view(), 'activities/use/steps/turn'), 'hintSeconds')?.most).toBe(3600);
+  expect(keyIn(tableAt(schema, view(), 'agents/HOLD'), 'forceLimit')).not.toBeNull();
+  expect(keyIn(tableAt(schema, view(), 'agents/HOLD'), 'type')).toMatchObject({ choices: ['simulation.grasp', 'geometry.hinge'],
+    required: true });
+  expect(keyIn(tableAt(schema, view(), 'AXLE/mechane:agent'), 'viscous')).not.toBeNull();
+  expect(tableAt(schema, view(), 'nothing/here')).toBeNull();
+  expect(namesFor(view(), 'step', 'activities/use/steps/turn/trigger:1/next')).toEqual(['grasp', 'turn', 'end']);
+  expect(namesFor(view(), 'agent', '')).toEqual(['HOLD', 'PEG', 'AXLE']);
+  const stiffness = keyIn(tableAt(schema, view(), 'DRUM/mechane:haptic'), 'stiffness')!;
+  expect([beyond(stiffness, 49), beyond(stiffness, 1e9)]).toEqual([{ least: 50 }, null]);
+});
+
+it('the contents have all that can be selected, filtered by name, and a problem leads to its place', () => {
+  const tree = treeOf(view());
+  const names = rowsOf(tree, new Set(), '').map((r) => `${r.level}${r.node.group ?? r.node.name}`);
+  expect(names).toEqual(['1crane', '1bodies', '2DRUM', '1joints', '2AXLE', '1agents', '2HOLD', '2PEG', '1activities', '2use', '3grasp',
+    '3turn',
+    '1quantities', '2held', '1views', '2FRONT']);
+  const some = rowsOf(tree, new Set(['group:agents']), 'GRASP');
+  expect(some.map((r) => r.node.name)).toEqual(['agents', 'HOLD', 'activities', 'use', 'grasp']);
+  expect(rowAround(some, 4)).toBe(3);
+  expect(rowsOf(tree, new Set(['group:activities']), '').some((r) => r.node.name === 'grasp')).toBe(false);
+  expect(whereIs(tree, 'activities/use/steps/turn/trigger:1/value', '')).toEqual(
+    { selection: 'path:activities/use/steps/turn', field: 'activities/use/steps/turn/trigger:1/value' });
+  expect(whereIs(tree, 'DRUM/mechane:haptic/stiffness', '')?.selection).toBe('node:DRUM');
+  expect(whereIs(tree, '', 'AXLE')?.selection).toBe('node:AXLE');
+  expect(whereIs(tree, '', '')).toBeNull();
+});
+
+it('a new body stands where no other one stands', () => {
+  expect(freePlace(view({ bodies: [] }))).toEqual([0, 0.5, 0]);
+  const beside = freePlace(view());
+  expect(Math.hypot(beside[0], beside[2])).toBeCloseTo(0.8);
+  const all = Array.from({ length: 40 }, (_, i) => ({ def: `B${i}`, type: 'RigidBody', pose: [0, 0, 0, 0, 0, 0, 1] }));
+  for (const one of all) {
+    const [x, , z] = freePlace(view({ outline: all, bodies: all }));
+    expect(all.every(({ pose: [px, , pz] }) => Math.hypot(px! - x, pz! - z) > 0.6)).toBe(true);
+    one.pose = [x, 0.5, z, 0, 0, 0, 1];
+  }
+});
+it('words are missing where one language has them, or where visitors cannot do without', () => {
+  const groups = wordGroups(view());
+  const missing = groups.flatMap((g) => g.rows.flatMap((r) => r.missing.map((code) => `${g.name} ${r.what}.${code}`)));
+  expect(missing).toEqual(['use title.el', 'use title.en', 'grasp caption.en', 'grasp hint.el', 'turn caption.el', 'turn caption.en',
+    'DRUM title.en']);
+  expect(missingIn(groups)).toBe(missing.length);
+  expect(groups.some((g) => g.rows.some((r) => r.what === 'audio'))).toBe(false);
+  // What hands take has a name for visitors, if the author gives one.
+  const nameless = wordGroups(view({ bodies: [{ def: 'DRUM' }, { def: 'POST' }] })).filter((g) => g.kind === 'body');
+  expect(nameless.map((g) => [g.name, ...g.rows.map((r) => `${r.path}/${r.what} ${r.missing.length}`)])).toEqual([
+    ['DRUM', 'DRUM/mechane:body/text/title 0']]);
+  expect(wordsCommand(view(), 'text/title.el', ' ')).toEqual([{ op: 'remove', path: 'text/title.el' }]);
+  expect(wordsCommand(view(), 'text/title.de', '')).toEqual([]);
+  expect(wordsCommand(view(), 'text/title.de', ' Kran ')).toEqual([{ op: 'set', path: 'text/title.de', value: 'Kran' }]);
+});
+
+it('agents stay as they were until a step says otherwise', () => {
+  expect(agentsOf(view())).toEqual(['HOLD', 'PEG', 'AXLE']);
+  const cells = stepsOf(view(), 'use').map((step) => step.cells.map((c) => `${c.agent}${c.on ? '+' : '-'}${c.said ? '!' : ''}`).join(' '));
+  expect(cells).toEqual(['HOLD+! PEG- AXLE+!', 'HOLD-! PEG- AXLE+']);
+  const turn = 'activities/use/steps/turn';
+  expect(switchCommands(view(), turn, 'PEG', 'on')).toEqual([{ op: 'set', path: `${turn}/enable`, value: ['PEG'] }]);
+  expect(switchCommands(view(), turn, 'HOLD', 'same')).toEqual([{ op: 'remove', path: `${turn}/disable` }]);
+  expect(switchCommands(view(), turn, 'HOLD', 'on').map((c) => c.op)).toEqual(['set', 'remove']);
+  const rules = stepsOf(view(), 'use').map((step) => ruleText(step.triggers[0]!, studioWords('en')));
+  expect(rules).toEqual(['held > 0.5 for 0.2 s → turn', 'held < 1 or a = 2 → end']);
+});
+
+it('a joint in the making becomes one step, with its axis in the world and stops that go together', () => {
+  const draft = view({ outline: [{ def: 'POST', type: 'RigidBody', pose: [0, 0, 0, 0, 0, 0, 1], movable: false },
+    { def: 'ARM', type: 'RigidBody', pose: [1, 2, 3, ...quaternionFrom([90, 0, 0])], movable: true }],
+  bodies: [{ def: 'POST' }, { def: 'ARM' }], joints: [
+    { def: 'JOINT_1', type: 'SliderJoint', body2: 'ARM', fields: { axis: '0 0 2' } }, { def: 'ODD', type: 'MotorJoint' }] });
+  expect(movableBodies(draft)).toEqual(['ARM']);
+  const plan = { ...newPlan(draft, 'ARM'), frame: 'own' as const, axis: 'y' as const };
+  expect(plan.name).toBe('JOINT_2');
+  expect(joinCommands(draft, plan)).toBeNull();
+  expect(joinCommands(draft, { ...plan, anchor: '0 1,5 0' })).toEqual([
+    { op: 'join', kind: 'hinge', body1: 'ARM', anchor: [0, 1.5, 0], axis: [0, 0, 1], name: 'JOINT_2' }]);
+  expect(joinCommands(draft, { ...plan, kind: 'slider', against: 'POST', stops: ['0', '0,4'] })).toEqual([
+    { op: 'join', kind: 'slider', body1: 'POST', body2: 'ARM', axis: [0, 0, 1], name: 'JOINT_2' },
+    { op: 'field', node: 'JOINT_2', field: 'minSeparation', value: '0' },
+    { op: 'field', node: 'JOINT_2', field: 'maxSeparation', value: '0.4' }]);
+  expect(joinCommands(draft, { ...plan, kind: 'ball', against: 'ARM', anchor: '0 0 0' })).toBeNull();
+  for (const stops of [['1', ''], ['', 'a'], ['2', '1']] as [string, string][]) expect(stopsOf({ ...plan, stops })).toBeNull();
+  expect(markOfPlan(draft, plan)).toBeNull();
+  expect(markOfJoint(draft, 'JOINT_1')).toEqual({ kind: 'slider', at: [1, 2, 3], axis: [0, 0, 2] });
+  expect(markOfJoint(draft, 'ODD')).toBeNull();
+});
+
+it('files get names that the gateway takes, and bodies of closed meshes their mass', () => {
+  expect(['Τροχός 2.GLB', 'Ärm (new).obj', '.ogg', '../x.ply', 'a', 'a.exe'].map(plainName)).toEqual(
+    ['2.glb', 'Arm-new.obj', 'file.ogg', 'x.ply', 'a', 'a.exe']);
+  expect(['a.glb', 'a.exe', 'a'].map(isTaken)).toEqual([true, false, false]);
+  expect(massOf({ name: 'a', volume: 0.0123456 }, 'oak')).toBe('8.64');
+  expect(massOf({ name: 'a', volume: null }, 'oak')).toBe('');
+  for (const nothing of [null, [], { files: [3], nodes: 'x' }]) expect(() => [filesOf(nothing), nodesOf(nothing)]).not.toThrow();
+});
+
+it('the palette finds Greek without accents, and what begins with it first', () => {
+  const choices = ['Αναίρεση: μετακίνηση', 'Μετάβαση: DRUM', 'Κείμενα'].map((name) => ({ name, run: () => undefined }));
+  expect(found(choices, 'μετα').map((c) => c.name)).toEqual(['Μετάβαση: DRUM', 'Αναίρεση: μετακίνηση']);
+  expect(found(choices, 'drum μετ').length).toBe(1);
+  expect(found(choices, '').length).toBe(3);
+});
+
+/** A gateway with one draft; `next`: what it answers instead, once each. */
+class Gateway implements DraftRequests {
+  revision = 3;
+  by = 'eleni';
+  next: ApiError[] = [];
+  heard: { order: Order; revision: number }[] = [];
+
+  async view(): Promise<View> {
+    const trouble = this.next.shift();
+    if (trouble) throw trouble;
+    return view({ revision: this.revision, by: this.by });
+  }
+  async send(order: Order, revision: number): Promise<View> {
+    this.heard.push({ order, revision });
+    const trouble = this.next.shift();
+    if (trouble) throw trouble;
+    if (revision !== this.revision) throw new ApiError(409, 'changed', 'look');
+    this.take('eleni');
+    return this.view();
+  }
+  take(by: string): void {
+    ++this.revision;
+    this.by = by;
+  }
+  me(): string {
+    return 'eleni';
+  }
+}
+const edit = (id: string) => ({ id, what: id, commands: [{ op: 'remove' as const, path: id }] });
+const away = new ApiError(0, 'gone', '');
+
+async function begun(): Promise<{ gateway: Gateway; draft: Draft; state: () => DraftState }> {
+  const gateway = new Gateway();
+  let state: DraftState;
+  const draft = new Draft(gateway, (next) => (state = next));
+  await draft.open();
+  return { gateway, draft, state: () => state };
+}
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+it('edits go one after another, each with the revision before it', async () => {
+  const { gateway, draft, state } = await begun();
+  expect(await Promise.all([draft.edit(edit('a')), draft.edit(edit('b')), draft.undo()])).toEqual(['done', 'done', 'done']);
+  expect(gateway.heard.map((h) => h.revision)).toEqual([3, 4, 5]);
+  expect(state()).toMatchObject({ waiting: 0, conflict: null });
+  expect(await draft.edit({ id: 'c', what: '', commands: [] })).toBe('done');
+  expect(gateway.heard.length).toBe(3);
+});
+
+it('what is refused is said at its field until it is right', async () => {
+  const { gateway, draft, state } = await begun();
+  gateway.next = [new ApiError(422, 'too stiff', 'write less')];
+  expect(await draft.edit(edit('a'))).toBe('refused');
+  expect(state().refusals).toEqual({ a: { message: 'too stiff', remedy: 'write less' } });
+  expect(await draft.edit(edit('a'))).toBe('done');
+  expect(state().refusals).toEqual({});
+});
+
+it('another’s edit is shown, and one’s own waits until it is wanted', async () => {
+  const { gateway, draft, state } = await begun();
+  gateway.take('nikos');
+  const mine = [draft.edit(edit('a')), draft.undo(), draft.edit(edit('b'))];
+  await vi.waitFor(() => expect(state().conflict).toEqual({ by: 'nikos', mine: ['a', 'b'] }));
+  expect(state().view?.revision).toBe(4);
+  expect(await mine[1]).toBe('dropped');
+  draft.applyAgain();
+  expect([await mine[0], await mine[2]]).toEqual(['done', 'done']);
+  expect(gateway.heard.map((h) => h.revision)).toEqual([3, 4, 5]);
+  gateway.take('nikos');
+  const more = draft.edit(edit('c'));
+  await vi.waitFor(() => expect(state().conflict).not.toBeNull());
+  draft.dropMine();
+  expect(await more).toBe('dropped');
+  expect(state()).toMatchObject({ conflict: null, waiting: 0 });
+});
+
+it('while the gateway is away edits wait, and one whose answer was lost is not made twice', async () => {
+  const { gateway, draft, state } = await begun();
+  gateway.next = [away, new ApiError(503, 'busy', '')];
+  const mine = draft.edit(edit('a'));
+  await vi.waitFor(() => expect(state().away).toBe(true));
+  expect(state().waiting).toBe(1);
+  await vi.advanceTimersByTimeAsync(2_000);
+  await vi.advanceTimersByTimeAsync(2_000);
+  expect(await mine).toBe('done');
+  expect(state()).toMatchObject({ away: false, waiting: 0 });
+  gateway.next = [away];
+  const lost = draft.edit(edit('b'));
+  gateway.take('eleni');
+  await vi.advanceTimersByTimeAsync(2_000);
+  expect(await lost).toBe('done');
+  expect(state()).toMatchObject({ conflict: null });
+  expect(state().view?.revision).toBe(5);
+  gateway.next = [away];
+  const other = draft.edit(edit('c'));
+  gateway.take('nikos');
+  await vi.waitFor(() => expect(state().away).toBe(true));
+  draft.hurry();
+  await vi.waitFor(() => expect(state().conflict?.by).toBe('nikos'));
+  draft.dropMine();
+  await other;
+});
+
+it('what is refused for another reason than the revision is no conflict', async () => {
+  const { gateway, draft, state } = await begun();
+  gateway.next = [new ApiError(409, 'there is nothing to undo', '')];
+  expect(await draft.undo()).toBe('refused');
+  expect(state()).toMatchObject({ conflict: null, refusals: { '': { message: 'there is nothing to undo' } } });
+});
+
+it('when the session has ended, edits wait for the next', async () => {
+  const { gateway, draft, state } = await begun();
+  gateway.next = [new ApiError(401, 'sign in', '')];
+  const mine = draft.edit(edit('a'));
+  await vi.waitFor(() => expect(state().signedOut).toBe(true));
+  expect(state().waiting).toBe(1);
+  draft.resume();
+  expect(await mine).toBe('done');
+  expect(state().signedOut).toBe(false);
+});
+
+it('a draft that is not there is said, and not asked for again', async () => {
+  const gateway = new Gateway();
+  gateway.next = [new ApiError(404, 'there is no draft', 'begin one')];
+  let state: DraftState | null = null;
+  await new Draft(gateway, (next) => (state = next)).open();
+  expect(state).toMatchObject({ view: null, refusals: { '': { message: 'there is no draft' } } });
+});
