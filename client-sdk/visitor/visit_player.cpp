@@ -28,6 +28,13 @@ constexpr double kGivesWayMPerNs = 0.05;
 // A stylus that feels more than this does not press harder to get hold of a thing.
 constexpr double kPressesN = 1;
 constexpr double kPatienceS = 5;  // with a thing that is held and does not come after the hand
+// Who picks up what fell brings it back calmly: from the floor the way is longer than the visit's own.
+constexpr double kBringsBackMPerS = 0.4;
+// Nobody carries a thing farther: one that fell into the void is given up in the end.
+constexpr double kArmsReachM = 2;
+// A thing that lies farther than this from where the hand has reached for it fell or rolled meanwhile: the hand reaches for it again.
+constexpr double kMovedOnM = 0.2;
+constexpr int kReachesAgain = 5;
 
 // Places in a whole hand: where a handle lies, under the roots of the fingers; the tip of a stretched index finger.
 const Vec3 kGrip_H(0.095, -0.030, 0);
@@ -158,6 +165,7 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB, const HandSense& hand) 
   begun_ = true;
   ok_ = true;
   time_s_ = 0;
+  duration_s_ = move.duration_s;
   turned_rad_ = 0;
   held_ = false;
   held_rad_ = 0;
@@ -169,15 +177,18 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB, const HandSense& hand) 
   over_m_ = 0;
   if (move.kind == VisitMove::Kind::reach) {
     const bool from_side = config_.kind == client::HandKind::glove && config_.shapes_hand && shape_hand(X_WB);
-    if (index_ != last_reach_) fetched_again_ = 0;
+    if (index_ != last_reach_) fetched_again_ = reached_again_ = 0;
     last_reach_ = index_;
     p_BG_ = move.p_BG;
-    X_WH_goal_.p = X_WB[move.body.index()] * move.p_BG + config_.offset_W - X_WH_goal_.R * p_HG_;
+    p_WG_reached_ = grip_W(X_WB);
+    X_WH_goal_.p = p_WG_reached_ - X_WH_goal_.R * p_HG_;
     if (from_side) X_WH_goal_.p += beside(X_WH_start_.p - X_WH_goal_.p);
   } else if (move.kind == VisitMove::Kind::move_to) {
     // From here on, the hand keeps the pose that it now has relative to the body.
     const Pose X_BH = X_WB[move.body.index()].inverse() * X_WH_start_;
     X_WH_goal_ = move.X_WB * X_BH;
+    const double way_m = std::min((X_WH_goal_.p - X_WH_start_.p).norm(), kArmsReachM);
+    if (fetched_again_ > 0) duration_s_ = std::max(duration_s_, way_m / kBringsBackMPerS);
   } else if (move.kind == VisitMove::Kind::turn || move.kind == VisitMove::Kind::swing) {
     const state::JointDescription& joint = description_.joints[move.joint.index()];
     seen_rad_ = 0;
@@ -190,6 +201,10 @@ void VisitPlayer::begin_move(std::span<const Pose> X_WB, const HandSense& hand) 
   } else if (move.kind == VisitMove::Kind::release) {
     intent_.grasp_intent = 0;
   }
+}
+
+Vec3 VisitPlayer::grip_W(std::span<const Pose> X_WB) const {
+  return X_WB[visit_.moves[index_].body.index()] * p_BG_ + config_.offset_W;
 }
 
 /// From where the hand has its grip to the grip of what it last reached for; 0 before the first reach.
@@ -254,16 +269,18 @@ void VisitPlayer::bend_fingers(bool holding) {
     intent_.joints[i] += share * (goal[i] - intent_.joints[i]);
 }
 
+bool VisitPlayer::grasps_next() const {
+  return index_ + 1 < visit_.moves.size() && visit_.moves[index_ + 1].kind == VisitMove::Kind::grasp;
+}
+
 /// A hand may still touch what it has just lost, so it gets time to open first.
 bool VisitPlayer::touched_what_it_reaches_for(std::span<const Pose> X_WB, double felt_n) const {
-  const bool grasps_next = index_ + 1 < visit_.moves.size() && visit_.moves[index_ + 1].kind == VisitMove::Kind::grasp;
-  return grasps_next && time_s_ >= kClosesInS && felt_n > kTouchN && to_grip_m(X_WB) < kNearGripM;
+  return grasps_next() && time_s_ >= kClosesInS && felt_n > kTouchN && to_grip_m(X_WB) < kNearGripM;
 }
 
 /// A loose thing moves when it is touched: the hand follows its grip slowly.
 void VisitPlayer::follow_grip(std::span<const Pose> X_WB) {
-  const Vec3 p_WG = X_WB[visit_.moves[index_].body.index()] * p_BG_ + config_.offset_W;
-  const Vec3 to_grip = p_WG - intent_.X_WH * p_HG_;
+  const Vec3 to_grip = grip_W(X_WB) - intent_.X_WH * p_HG_;
   const double step_m = kFollowMPerS * last_dt_s_;
   intent_.X_WH.p += to_grip.norm() > step_m ? Vec3(to_grip.normalized() * step_m) : to_grip;
 }
@@ -283,13 +300,14 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, const HandSense& han
   const VisitMove& move = visit_.moves[index_];
   switch (move.kind) {
     case VisitMove::Kind::reach:
-      move_hand_towards_goal(move.duration_s);
-      return time_s_ >= move.duration_s || touched_what_it_reaches_for(X_WB, hand.felt_n);
+      move_hand_towards_goal();
+      if (touched_what_it_reaches_for(X_WB, hand.felt_n)) return true;
+      return time_s_ >= duration_s_ && !reaches_again(X_WB);
     case VisitMove::Kind::move_to:
-      move_hand_towards_goal(move.duration_s);
-      ok_ =
-          ok_ && (hand.holding || time_s_ > 0.8 * move.duration_s);  // placed early: the snap released it, not the hand
-      return time_s_ >= move.duration_s;
+      move_hand_towards_goal();
+      // Placed early: the snap released it, not the hand.
+      ok_ = ok_ && (hand.holding || time_s_ > 0.8 * duration_s_);
+      return time_s_ >= duration_s_;
     case VisitMove::Kind::grasp:
       ok_ = hand.holding;
       note_grasp(X_WB, hand.felt_n);
@@ -315,8 +333,17 @@ bool VisitPlayer::continue_move(std::span<const Pose> X_WB, const HandSense& han
   return time_s_ >= move.duration_s;
 }
 
-void VisitPlayer::move_hand_towards_goal(double duration_s) {
-  const double share = duration_s > 0 ? time_s_ / duration_s : 1.0;
+/// Whether the thing is no longer where it was when the hand began to reach for it; then the move begins anew.
+bool VisitPlayer::reaches_again(std::span<const Pose> X_WB) {
+  if (!grasps_next() || (grip_W(X_WB) - p_WG_reached_).norm() < kMovedOnM || reached_again_ >= kReachesAgain)
+    return false;
+  ++reached_again_;
+  begun_ = false;
+  return true;
+}
+
+void VisitPlayer::move_hand_towards_goal() {
+  const double share = duration_s_ > 0 ? time_s_ / duration_s_ : 1.0;
   const double s = over_m_ > 0 ? minimum_jerk(share / kOverAfter) : minimum_jerk(share);
   intent_.X_WH.p = X_WH_start_.p + s * (X_WH_goal_.p - X_WH_start_.p);
   intent_.X_WH.R = X_WH_start_.R.slerp(s, X_WH_goal_.R);

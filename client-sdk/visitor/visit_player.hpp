@@ -74,6 +74,8 @@ class VisitPlayer {
 
  private:
   void begin_move(std::span<const Pose> X_WB, const HandSense& hand);
+  /// Where the hand has to be to take what this move reaches for, or grasps.
+  [[nodiscard]] Vec3 grip_W(std::span<const Pose> X_WB) const;
   [[nodiscard]] double to_grip_m(std::span<const Pose> X_WB) const;
   [[nodiscard]] bool waits(std::span<const Pose> X_WB, bool holding, double dt_s);
   /// Returns whether it stops beside the thing, and goes the rest of the way slowly, closing.
@@ -86,7 +88,9 @@ class VisitPlayer {
   void follow_grip(std::span<const Pose> X_WB);
   [[nodiscard]] bool presses(const HandSense& hand) const;
   void stay_at(const Vec3& p_WH, const HandSense& hand);
-  void move_hand_towards_goal(double duration_s);
+  [[nodiscard]] bool reaches_again(std::span<const Pose> X_WB);
+  [[nodiscard]] bool grasps_next() const;
+  void move_hand_towards_goal();
   bool turn(const state::VisitMove& move, const HandSense& hand);
   bool swing(const state::VisitMove& move, const HandSense& hand);
   /// Advances a motion of `whole` radians at up to `rate` by one tick, with acceleration and deceleration; returns its
@@ -112,9 +116,11 @@ class VisitPlayer {
   std::size_t last_reach_ = 0;  // the move in which the hand reached for what it carries
   std::size_t step_move_ = 0;   // the move in which the present step began
   int fetched_again_ = 0;       // since the visit first made that reach
+  int reached_again_ = 0;       // the same, for a thing that was no longer there
   bool begun_ = false;
   bool ok_ = true;
   double time_s_ = 0;  // in this move
+  double duration_s_ = 0;
   double last_dt_s_ = 0;
   bool held_ = false;     // the hand held something at some moment of this move
   double held_rad_ = 0;   // the angle at which the hand last held something in this move
@@ -124,16 +130,17 @@ class VisitPlayer {
   double empty_s_ = 0;    // time since the hand last held something in this move
   Pose X_WH_start_;
   Pose X_WH_goal_;
-  Vec3 p_WH_caught_ = Vec3::Zero();  // where the hand was when it first held something in this move
-  Vec3 arm_J_ = Vec3::Zero();        // from the joint of a turn or swing to the grip, where this move begins
-  Vec3 p_HG_W_ = Vec3::Zero();       // from the hand to its grip, in this turn or swing
-  double turned_rad_ = 0;            // angle of a turn, or phase of a swing
-  double swing_from_rad_ = 0;        // the joint's angle at the start of the swing
-  Vec3 p_BG_ = Vec3::Zero();         // the grip of the last reach, in the body
-  Vec3 p_HG_ = Vec3::Zero();         // the same in the hand
-  double seen_rad_ = 0;              // how far the joint of this move has turned, by sight
-  double seen_at_rad_ = 0;           // its angle when it was last seen
-  double over_m_ = 0;                // how far above its goal the hand is before it goes down
+  Vec3 p_WG_reached_ = Vec3::Zero();  // where the grip was when this reach began
+  Vec3 p_WH_caught_ = Vec3::Zero();   // where the hand was when it first held something in this move
+  Vec3 arm_J_ = Vec3::Zero();         // from the joint of a turn or swing to the grip, where this move begins
+  Vec3 p_HG_W_ = Vec3::Zero();        // from the hand to its grip, in this turn or swing
+  double turned_rad_ = 0;             // angle of a turn, or phase of a swing
+  double swing_from_rad_ = 0;         // the joint's angle at the start of the swing
+  Vec3 p_BG_ = Vec3::Zero();          // the grip of the last reach, in the body
+  Vec3 p_HG_ = Vec3::Zero();          // the same in the hand
+  double seen_rad_ = 0;               // how far the joint of this move has turned, by sight
+  double seen_at_rad_ = 0;            // its angle when it was last seen
+  double over_m_ = 0;                 // how far above its goal the hand is before it goes down
   HandJoints joints_goal_{};
 };
 

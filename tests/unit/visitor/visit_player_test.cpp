@@ -201,6 +201,57 @@ TEST(VisitPlayerReach, AHandOpensFirst) {
   EXPECT_NEAR(player.results()[0].seconds, 0.3, 0.01);
 }
 
+TEST(VisitPlayerReach, GoesOnToWhereTheThingFellMeanwhile) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = carrying();
+  VisitPlayer player(world, visit, PlayerConfig{});
+  for (int t = 0; player.results().empty(); ++t) {
+    const Vec3 p_WB = t < 100 ? Vec3(0, 1, 0) : Vec3(0.1, 0.05, 0);
+    step(player, std::vector<Pose>{Pose{}, Pose{p_WB, Quat::Identity()}}, false, 0);
+    ASSERT_LT(t, 1000);
+  }
+  EXPECT_LT((player.intent().X_WH.p - Vec3(0.1, 0.05, 0)).norm(), 1e-3);
+}
+
+TEST(VisitPlayerReach, DoesNotChaseAThingForEver) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = carrying();
+  VisitPlayer player(world, visit, PlayerConfig{});
+  for (int t = 0; player.results().empty(); ++t) {
+    step(player, std::vector<Pose>{Pose{}, Pose{Vec3(0.002 * t, 1, 0), Quat::Identity()}}, false, 0);
+    ASSERT_LT(t, 2000);
+  }
+}
+
+TEST(VisitPlayerCarry, WhatFellIsBroughtBackCalmly) {
+  const state::WorldDescription world = lever_world();
+  state::VisitDescription visit = carrying();
+  visit.moves[2].X_WB.p = Vec3(0.1, 1, 0);
+  VisitPlayer player(world, visit, PlayerConfig{});
+  double fastest_m_per_s = 0;
+  for (Vec3 before = player.intent().X_WH.p; !player.finished(); before = player.intent().X_WH.p) {
+    const std::size_t moves = player.results().size();
+    const Pose X_WB{moves < 2 ? Vec3(0, 1, 0) : Vec3(0, 0, 0), Quat::Identity()};  // it falls when it is first carried
+    step(player, std::vector<Pose>{Pose{}, X_WB}, moves != 2, 0);
+    if (moves == 5) fastest_m_per_s = std::max(fastest_m_per_s, (player.intent().X_WH.p - before).norm() / 0.001);
+    if (moves == 6) break;
+  }
+  EXPECT_GT(fastest_m_per_s, 0.5) << "a metre up";
+  EXPECT_LT(fastest_m_per_s, 0.8) << "at 0.4 m/s, and up to 15/8 of it with a hand's course";
+}
+
+TEST(VisitPlayerCarry, WhatFellIntoTheVoidIsGivenUp) {
+  const state::WorldDescription world = lever_world();
+  const state::VisitDescription visit = carrying();
+  VisitPlayer player(world, visit, PlayerConfig{});
+  for (int t = 0; !player.finished(); ++t) {
+    const bool carries = player.results().size() % 3 == 2;
+    const Pose X_WB{carries ? Vec3(0, -1e6, 0) : Vec3(0, 1, 0), Quat::Identity()};
+    step(player, std::vector<Pose>{Pose{}, X_WB}, !carries, 0);
+    ASSERT_LT(t, 60'000);
+  }
+}
+
 PlayerConfig whole_hand_at(const Vec3& p_WH_rest) {
   PlayerConfig config;
   config.kind = client::HandKind::glove;
