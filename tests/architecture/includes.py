@@ -46,8 +46,10 @@ ARROWS = {
     "client-sdk/visitor": ["client-sdk/haptic", "client-sdk/pointer", "client-sdk/scene", "server/scenario"],  # a person at a device
     "client-sdk/fit": ["server/content"],
     "client-sdk/authoring": ["server/scenario"],
-    "client-sdk/gateway": ["client-sdk/visit", "client-sdk/pointer", "client-sdk/haptic", "server/content", "server/visits"],
-    "client-sdk/cli": ["client-sdk/recording", "client-sdk/authoring", "server/content", "server/visits"],
+    "client-sdk/studio": ["client-sdk/authoring"],
+    "client-sdk/gateway": ["client-sdk/visit", "client-sdk/pointer", "client-sdk/haptic", "client-sdk/studio", "server/content",
+                           "server/visits"],
+    "client-sdk/cli": ["client-sdk/recording", "client-sdk/studio", "server/content", "server/visits"],
     "client-sdk/examples": ["client-sdk/client"],
 }
 
@@ -67,11 +69,12 @@ LIBRARIES = {
     "SDL": (re.compile(r"(SDL2/|SDL\w*\.h$)"), {"client-sdk/display"}),
     "Boost.Beast": (re.compile(r"boost/(asio|beast|system)\b"), {"client-sdk/drivers", "client-sdk/gateway"}),
     "OpenSSL": (re.compile(r"openssl/"), {"client-sdk/gateway"}),
-    "libsodium": (re.compile(r"sodium"), {"client-sdk/gateway"}),
+    "libsodium": (re.compile(r"sodium"), {"proto", "client-sdk/gateway"}),
     "libcurl": (re.compile(r"curl/"), {"client-sdk/assets"}),
     "OpenAL": (re.compile(r"AL/"), {"client-sdk/sound"}),
     "meshoptimizer": (re.compile(r"meshoptimizer"), {"client-sdk/scene"}),
     "libsndfile": (re.compile(r"sndfile"), {"client-sdk/sound"}),
+    "libqrencode": (re.compile(r"qrencode"), {"client-sdk/display"}),
 }
 # proto is the wrapper: its headers are where Cyclone DDS becomes typed topics.
 IN_HEADERS = {("proto", "Cyclone DDS")}

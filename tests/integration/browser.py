@@ -4,12 +4,13 @@ import base64
 import http.client
 import json
 import os
+import re
 import socket
 import ssl
 import struct
 import threading
 
-from harness import PATIENCE, wait_until
+from harness import PATIENCE, EndToEnd, wait_until
 
 
 class Page:
@@ -186,3 +187,32 @@ class Browser:
     def close(self):
         """As a page that is left without a word."""
         self.socket.close()
+
+
+class WithGateway(EndToEnd):
+    """Tests at a gateway of their own. A second one has the first one's state, so that its operator has the same password."""
+
+    def gateway(self, *arguments):
+        """It, and a page on which its operator has signed in."""
+        process = self.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--state", self.folder / "state", *arguments)
+        wait_until(lambda: "\nready" in process.text() or not process.running(), 60, "the gateway is ready")
+        self.assertTrue(process.running(), process.text())
+        self.port = int(re.search(r"console: http://[^:]+:(\d+)/console", process.text()).group(1))
+        if found := re.search(r"operator (\S+)", process.text()):
+            self.password = found.group(1)
+        return process, self.page("operator", self.password)
+
+    def page(self, user, password):
+        page = Page(self.port)
+        self.assertEqual(page.sign_in(user, password)[0], 200)
+        return page
+
+    def got(self, page, path):
+        status, _, body = page.get(path)
+        self.assertEqual(status, 200, body)
+        return json.loads(body)
+
+    def posted(self, page, path, body, status=200):
+        got, answer = page.post(path, body)
+        self.assertEqual(got, status, answer)
+        return json.loads(answer)

@@ -6,24 +6,17 @@ import socket
 import subprocess
 import unittest
 
-from browser import Browser, Page
-from harness import PATIENCE, ROOT, SCENARIO, EndToEnd, marked, wait_until
+from browser import Browser, Page, WithGateway
+from harness import PATIENCE, ROOT, SCENARIO, marked, wait_until
 
 VILLAGE = ROOT / "scenarios/village/village.x3d"
 CLOSED = {"week": {}}
 
 
-class Console(EndToEnd):
+class Console(WithGateway):
     def gateway(self, *arguments):
-        """A gateway and an operator's page; a second one has the first one's state."""
-        process = self.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--state", self.folder / "state", *arguments)
-        wait_until(lambda: "\nready" in process.text() or not process.running(), 60, "the gateway is ready")
-        self.assertTrue(process.running(), process.text())
-        page = Page(int(re.search(r"console: http://[^:]+:(\d+)/console", process.text()).group(1)))
-        if found := re.search(r"operator (\S+)", process.text()):
-            self.password = found.group(1)
+        process, page = super().gateway(*arguments)
         self.token = re.search(r"kiosk kiosk-1: \S+\?token=(\S+)", process.text()).group(1)
-        self.assertEqual(page.sign_in("operator", self.password)[0], 200)
         return process, page
 
     def browser(self, page):
@@ -32,13 +25,8 @@ class Console(EndToEnd):
         browser.wait("world")
         return browser
 
-    def order(self, page, path, body, status=200):
-        answered, text = page.post(path, body)
-        self.assertEqual(answered, status, text)
-        return json.loads(text)
-
     def ordered(self, page):
-        return json.loads(page.get("/api/operations")[2])
+        return self.got(page, "/api/operations")
 
     def setting(self, display, name):
         return self.displays().get(display, {}).get("settings", {}).get(name)
@@ -48,16 +36,16 @@ class Console(EndToEnd):
         self.server(scenario=[VILLAGE, SCENARIO], records=False)
         process, page = self.gateway()
         browser = self.browser(page)
-        said = self.order(page, "/api/messages", {"texts": {"el": "Κλείνουμε στις έξι.", "en": "<b>We close at six."}, "minutes": 0.1})
+        said = self.posted(page, "/api/messages", {"texts": {"el": "Κλείνουμε στις έξι.", "en": "<b>We close at six."}, "minutes": 0.1})
         overlay = browser.wait("overlay", lambda overlay: overlay["message"])
         self.assertEqual(overlay["message"], "Κλείνουμε στις έξι." if overlay["language"] == "el" else "<b>We close at six.")
         self.assertEqual([m["id"] for m in self.ordered(page)["messages"]], [said["id"]])
 
         # The volume and the exhibit return.
         changed = {"display": "", "settings": {"volume": "0.30"}, "minutes": 0.1}
-        self.order(page, "/api/kiosks/kiosk-1/settings", changed)
+        self.posted(page, "/api/kiosks/kiosk-1/settings", changed)
         browser.wait("settings", lambda settings: settings["volume"] == 0.3)
-        self.order(page, "/api/kiosks/kiosk-1/open", {"scenario": "archimedes-screw", "minutes": 0.05})
+        self.posted(page, "/api/kiosks/kiosk-1/open", {"scenario": "archimedes-screw", "minutes": 0.05})
         browser.wait("settings", lambda settings: settings["volume"] == 0.8)
         browser.wait("world", lambda world: world["scenario"] == "village")
         browser.wait("overlay", lambda overlay: not overlay["message"])
@@ -67,7 +55,7 @@ class Console(EndToEnd):
                                   ("/api/messages", {"texts": {"en": "x"}}, "minutes"),
                                   ("/api/hours", {"museum": {"week": {"monday": ["18:00-10:00"]}}}, "museum.week.monday"),
                                   ("/api/kiosks/kiosk-1/settings", {**changed, "minutes": -1}, "minutes")):
-            refused = self.order(page, path, body, 400)
+            refused = self.posted(page, path, body, 400)
             self.assertTrue(refused["error"].startswith(field) and refused["remedy"], refused)
         actions = {e["action"] for e in json.loads(page.get("/api/audit")[2])["entries"]}
         self.assertLessEqual({"/api/messages", "ended"}, actions)
@@ -78,9 +66,9 @@ class Console(EndToEnd):
         self.server(scenario=[VILLAGE, SCENARIO], records=False)
         process, page = self.gateway()
         browser = self.browser(page)
-        self.order(page, "/api/kiosks/kiosk-1/open", {"scenario": "archimedes-screw"})
+        self.posted(page, "/api/kiosks/kiosk-1/open", {"scenario": "archimedes-screw"})
         browser.wait("world", lambda world: world["scenario"] == "archimedes-screw")
-        self.order(page, "/api/kiosks/kiosk-1/maintenance", {"on": True})
+        self.posted(page, "/api/kiosks/kiosk-1/maintenance", {"on": True})
         panel = browser.wait("overlay", lambda overlay: overlay["panel"])["panel"]
         self.assertEqual((panel["answers"], panel["leave"]), ([], None), "there is nothing to press")
         browser.wait("world", lambda world: world["scenario"] == "village")
@@ -102,14 +90,14 @@ class Console(EndToEnd):
 
         # Closed all week; then open, which wakes the kiosk.
         mac = "02:00:5e:10:00:01"
-        self.order(page, "/api/hours", {"museum": CLOSED, "wake": {"kiosk-1": mac}})
+        self.posted(page, "/api/hours", {"museum": CLOSED, "wake": {"kiosk-1": mac}})
         browser.wait("overlay", lambda overlay: overlay["panel"])
         process.kill()
         process, page = self.gateway("--wake-to", f"127.0.0.1:{listener.getsockname()[1]}")
         self.assertEqual(self.ordered(page)["hours"]["wake"], {"kiosk-1": mac})
         browser = self.browser(page)
         browser.wait("overlay", lambda overlay: overlay["panel"])
-        self.order(page, "/api/hours", {"museum": None, "wake": {"kiosk-1": mac}})
+        self.posted(page, "/api/hours", {"museum": None, "wake": {"kiosk-1": mac}})
         browser.wait("overlay", lambda overlay: not overlay["panel"])
         packet = listener.recv(200)
         self.assertEqual(packet, b"\xff" * 6 + bytes.fromhex(mac.replace(":", "")) * 16)
@@ -121,13 +109,13 @@ class Console(EndToEnd):
         display = self.start("display", "display", "--kiosk", "kiosk-1", "--name", "wall", "--offscreen", "--size", "320x180")
         process, page = self.gateway()
         wait_until(lambda: self.displays().get("wall", {}).get("link") == "joined", 60, "the display is there")
-        self.order(page, "/api/messages", {"texts": {"en": "We close at six."}, "kiosks": ["kiosk-1"], "minutes": 5})
+        self.posted(page, "/api/messages", {"texts": {"en": "We close at six."}, "kiosks": ["kiosk-1"], "minutes": 5})
         wait_until(lambda: self.setting("wall", "message-en") == "We close at six.", 20, "the display has the message")
-        self.order(page, "/api/kiosks/kiosk-1/maintenance", {"on": True, "minutes": 0.05})
+        self.posted(page, "/api/kiosks/kiosk-1/maintenance", {"on": True, "minutes": 0.05})
         wait_until(lambda: self.setting("wall", "sign") == "maintenance", 20, "the display has the sign")
         wait_until(lambda: self.setting("wall", "sign") == "none", 20, "and takes it away in time")
-        self.order(page, "/api/kiosks/kiosk-1/restart", {"display": "nothing"}, 404)
-        self.assertEqual(self.order(page, "/api/kiosks/kiosk-1/restart", {"display": "wall"}), {"restarts": True})
+        self.posted(page, "/api/kiosks/kiosk-1/restart", {"display": "nothing"}, 404)
+        self.assertEqual(self.posted(page, "/api/kiosks/kiosk-1/restart", {"display": "wall"}), {"restarts": True})
         wait_until(lambda: not display.running(), 20, "the display ends; its service starts it again")
         self.assertEqual(process.stop(), 0, process.text())
 
@@ -141,6 +129,8 @@ class Console(EndToEnd):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         browser.wait("world", lambda world: world["scenario"] == "archimedes-screw")
         browser.wait("overlay", lambda overlay: overlay["message"] == "The museum closes at six.")
+        # Neither this server nor this gateway has a key: the page told so.
+        self.assertIn("--exhibit-key", self.posted(page, "/api/exhibits/village/replace", {}, 404)["remedy"])
         self.assertEqual(process.stop(), 0, process.text())
 
 

@@ -24,7 +24,7 @@ class Exhibits(EndToEnd):
 
         def visitor(name, *arguments):
             report = self.folder / f"{name}.json"
-            played = self.run_command("visitor", *arguments, "--report", report, limit_s=300)
+            played = self.run_command("visitor", *arguments, "--report", report, limit_s=600)
             self.assertEqual(played.returncode, 0, played.stdout + played.stderr)
             return json.loads(report.read_text())
 

@@ -4,11 +4,14 @@ import json
 import math
 import re
 import socket
+import struct
+import subprocess
+import time
 import unittest
 
 from browser import Browser, Page, Refused
 from harness import ROOT, SCENARIO, EndToEnd, marked, repeat_until, wait_until
-from touch import TouchVisitor, cross, placed
+from touch import TouchVisitor, add, cross, placed, scaled, sub, turned, unit
 
 SIZE = (480, 270)
 
@@ -41,6 +44,19 @@ class WebVisitor(TouchVisitor):
             if event["kind"] == "press":
                 event["pick"] = self.pick
         self.browser.say(type="pointer", events=events, picture=SIZE, camera=self.camera())
+
+
+def tracked_hand(wrist, closed):
+    """The message of a headset that sees a right hand: its wrist in W, palm down, fingers along x, each bent by this share of a fist."""
+    joints = [[0, 0, 0], *(add([0.02, -0.01, -0.025], scaled(unit([0.62, -0.30, -0.72]), s)) for s in (0, 0.045, 0.08, 0.105))]
+    for z in (-0.03, -0.01, 0.01, 0.03):
+        joints += [[0.045, 0, z / 2], [0.09, 0, z]]
+        down = 0
+        for bone, bend in ((0.045, 1.2), (0.026, 1.4), (0.02, 0.8)):
+            down += closed * bend
+            joints.append(add(joints[-1], [bone * math.cos(down), -bone * math.sin(down), 0]))
+    numbers = [x for joint in joints for x in add(wrist, joint)]
+    return struct.pack("<8Bf75f", 2, 1, 1, 0, 0, 1, 1, 0, -1, *numbers)
 
 
 class Gateway(EndToEnd):
@@ -86,7 +102,7 @@ class Gateway(EndToEnd):
         self.assertEqual(world["scenario"], "archimedes-screw")
         self.assertIn("title", browser.wait("overlay"))
         wait_until(lambda: browser.frames > 30, 20, "frames come")
-        self.assertLess(browser.frame.age_s, 0.05)
+        wait_until(lambda: browser.frame.age_s < 0.05, 20, "a frame is fresh")
         self.assertEqual(set(browser.frame.bodies), {o["index"] for o in scene["objects"] if o["movable"]})
 
         # The mesh, whole, by a part, and not again.
@@ -116,10 +132,12 @@ class Gateway(EndToEnd):
         self.assertTrue(visitor.take(grasp["body"], [float(x) for x in grasp["grip"].split()]), browser.texts.get("pointer"))
         self.assertEqual(browser.wait("pointer", lambda hand: hand["phase"] == "holding")["drag"], "turn")
         turn = next(move for move in visitor.visit("use") if move["kind"] == "turn")
-        way, _ = visitor.circle(turn["joint"])
-        visitor.drag(lambda share: way(math.copysign(3 * share, float(turn["turns"]))), 3)
-        # The hand comes after the finger as fast as a hand may.
-        wait_until(lambda: abs(sum(a * b for a, b in zip(before, rotation()))) < 0.9, 20, "the crank has turned by a radian or more")
+
+        def go_round():  # from where the hand is now: it comes after the finger as fast as a hand may
+            way, _ = visitor.circle(turn["joint"])
+            visitor.drag(lambda share: way(math.copysign(3 * share, float(turn["turns"]))), 3)
+        turned = lambda: abs(sum(a * b for a, b in zip(before, rotation()))) < 0.9
+        repeat_until(go_round, turned, 60, "the crank has turned by a radian or more")
         visitor.xdo("mouseup", 1)
         browser.wait("pointer", lambda hand: hand["phase"] in ("leaving", "resting"))
 
@@ -181,6 +199,74 @@ class Gateway(EndToEnd):
         for finger in (5, 4, 3, 1):
             say("release", finger, (0, 0))
         browser.wait("pointer", lambda hand: visitor.objects["DRUM"] in held_by([hand]) and not hand.get("others"))
+        self.assertEqual(process.stop(), 0, process.text())
+
+    @marked("alone")
+    def test_a_tracked_hand_closes_around_a_crank_and_turns_it(self):
+        self.server(scenario=ROOT / "scenarios/pulley-crane/pulley-crane.x3d", records=False)
+        process, page = self.gateway()
+        browser = Browser(page, self.path(process))
+        self.addCleanup(browser.close)
+        (drum,) = [o["index"] for o in browser.wait("scene")["objects"] if o["name"] == "DRUM"]
+        wait_until(lambda: browser.frame, 20, "a frame comes")
+        axle = [0.30, 0.80, 0.65]  # along z; the crank's grip is beside it
+
+        def angle():
+            z, w = browser.frame.bodies[drum][1][5:]
+            return 2 * math.atan2(z, w)
+
+        def around(turn):
+            return add(axle, turned([0, 0, 1, turn], [0.30, 0, 0]))
+
+        def show(grip, closed):
+            """For one picture of the headset: the grip is in the hollow of the hand."""
+            browser.say_bytes(tracked_hand(sub(grip, [0.085, -0.03, 0]), closed))
+            time.sleep(1 / 60)  # sleeps: the pace
+
+        def holds():
+            return browser.texts.get("tracked", {"hands": [{"holding": False}]})["hands"][0]["holding"]
+
+        def close():
+            for k in range(60):  # from above, open
+                show(add(around(angle()), [0, 0.2 * (1 - k / 59), 0]), 0)
+            for k in range(30):
+                show(around(angle()), k / 29)
+        repeat_until(close, lambda: show(around(angle()), 1) or holds(), 60, "the hand holds the crank")
+        before = angle()
+        for k in range(180):
+            show(around(before + 1.2 * k / 179), 1)
+        wait_until(lambda: show(around(before + 1.2), 1) or angle() - before > 1, 20, "the crank has turned by a radian")
+        (hand,) = browser.frame.hands
+        self.assertEqual((holds(), hand["holding"], len(hand["poses"])), (True, 1, 16), "a whole hand holds it still")
+        wait_until(lambda: show(around(angle()), 0) or not holds(), 20, "an open hand lets go")
+        browser.say_bytes(struct.pack("<4B", 2, 1, 0, 0))
+        browser.wait("tracked", lambda tracked: all(hand["link"] == "none" for hand in tracked["hands"]))
+        self.assertEqual(process.stop(), 0, process.text())
+
+    @marked("draws")
+    def test_a_display_shows_a_code_that_leads_a_phone_to_its_kiosk(self):
+        """Read by a program that knows nothing of how it was made."""
+        self.server(records=False)
+        display = self.start("display", "display", "--kiosk", "kiosk-1", "--name", "wall", "--language", "en", "--offscreen",
+                             "--size", "960x540", "--mute", "--out", self.folder / "pictures")
+        process, page = self.gateway("--phones", "https://museum.example:8480")
+
+        def read():
+            self.picture(display)
+            newest = self.folder / f"pictures/request-{self.pictures:03}-mono.png"
+            return subprocess.run(["zbarimg", "--quiet", "--raw", newest], capture_output=True, text=True).stdout.strip()
+        code = wait_until(read, 60, "a code is read in a picture of the display")
+        self.assertRegex(code, r"^https://museum\.example:8480/kiosk/kiosk-1\?token=[\w-]{20,}$")
+        token = code.partition("token=")[2]
+        browser = Browser(page, f"/ws/kiosk/kiosk-1?token={token}")
+        self.addCleanup(browser.close)
+        self.assertEqual(browser.wait("hello")["kiosk"], "kiosk-1")
+        self.refused(page, f"/ws/kiosk/kiosk-2?token={token}", 403)
+
+        # The token is a secret: no log has it, nor what the display tells of itself. Only the address that the gateway prints first does.
+        settings = self.displays()["wall"]["settings"]
+        self.assertEqual((settings["phone-address"], settings["phone-code"]), ("https://museum.example:8480", "set"))
+        self.assertNotIn(token, display.text() + process.text().partition("\nready")[2])
         self.assertEqual(process.stop(), 0, process.text())
 
     @marked("address")
@@ -256,6 +342,9 @@ class Gateway(EndToEnd):
         browser.wait("settings", lambda settings: settings["volume"] == 0.25)
         self.assertEqual(page.post("/api/kiosks/kiosk-1/settings", {"display": "", "settings": {"volume": "7"}})[0], 400)
         self.assertEqual(json.loads(page.get("/api/server")[2])["server"]["scenarios"], ["village", "archimedes-screw"])
+        exhibits = json.loads(page.get("/api/exhibits")[2])
+        self.assertEqual([e["id"] for e in exhibits["exhibits"]], ["village", "archimedes-screw"])
+        self.assertEqual((exhibits["changeable"], exhibits["remedy"]), (True, ""))
         self.assertEqual(json.loads(page.get("/api/visits?days=1")[2])["days"], 1)
 
         # Visitors and authors may not do this.

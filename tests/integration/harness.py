@@ -51,10 +51,10 @@ def repeat_until(action, condition, limit_s, what, again_s=5):
 
 
 class Process:
-    def __init__(self, name, command, folder, environment):
+    def __init__(self, name, command, folder, environment, stdin=subprocess.DEVNULL):
         self.name, self.log = name, folder / f"{name}.log"
         self._file = open(self.log, "w")
-        self.process = subprocess.Popen(command, stdout=self._file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+        self.process = subprocess.Popen(command, stdout=self._file, stderr=subprocess.STDOUT, stdin=stdin,
                                         env=environment)
 
     def text(self):
@@ -100,14 +100,18 @@ class EndToEnd(unittest.TestCase):
                 print(f"---- {process.name} ----\n{process.text()[-4000:]}")
         self._folder.cleanup()
 
-    def start(self, name, *arguments, environment=None, prefix=()):
-        """Runs `mechane` with these arguments. A display without a window draws what costs least, unless they name a quality: in `high`,
-        its default, two displays leave a processor no time for anything else. A test that compares pictures bit by bit must ask for it."""
-        if "--offscreen" in arguments and "--quality" not in arguments:
+    def start(self, name, *arguments, environment=None, prefix=(), stdin=subprocess.DEVNULL):
+        """Runs `mechane` with these arguments. A display draws seldom, and without a window what costs least, unless they say otherwise: in
+        `high` and 60 times a second, its defaults, two displays leave a processor no time for anything else. A test that compares pictures
+        bit by bit must ask for it."""
+        offscreen = "--offscreen" in arguments
+        if offscreen and "--quality" not in arguments:
             arguments = (*arguments, "--quality", "cached")
+        if "display" in arguments and not {"--fps", "--frames", "--play"} & set(arguments):
+            arguments = (*arguments, "--fps", "10" if offscreen else "20")
         self._count += 1
         process = Process(f"{name}-{self._count}", [*prefix, str(BIN / "mechane"), *map(str, arguments)], self.folder,
-                          environment or self.environment)
+                          environment or self.environment, stdin)
         self.processes.append(process)
         return process
 
@@ -176,8 +180,12 @@ class EndToEnd(unittest.TestCase):
         return result.returncode, result.stdout + result.stderr
 
     def run_command(self, *arguments, limit_s=60):
-        return subprocess.run([*self.command_prefix, str(BIN / "mechane"), *map(str, arguments)], capture_output=True, text=True,
-                              timeout=limit_s * PATIENCE, env=self.environment, stdin=subprocess.DEVNULL)
+        try:
+            return subprocess.run([*self.command_prefix, str(BIN / "mechane"), *map(str, arguments)], capture_output=True, text=True,
+                                  timeout=limit_s * PATIENCE, env=self.environment, stdin=subprocess.DEVNULL)
+        except subprocess.TimeoutExpired as late:
+            told = "".join((text or b"").decode() for text in (late.stdout, late.stderr))
+            raise AssertionError(f"mechane {arguments[0]} was not done in {late.timeout:.0f} s. It said:\n{told}") from None
 
     def displays(self, *arguments):
         """What `mechane displays` tells, by name."""

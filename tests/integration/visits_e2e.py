@@ -4,12 +4,14 @@ import csv
 import io
 import itertools
 import json
+import math
 import re
 import sqlite3
+import struct
 import subprocess
 import unittest
 
-from browser import Page
+from browser import Frame, Page
 from harness import PATIENCE, ROOT, SCENARIO, EndToEnd, marked, repeat_until, wait_until
 
 VILLAGE = ROOT / "scenarios/village/village.x3d"
@@ -78,7 +80,8 @@ class Visits(EndToEnd):
 
     def the_console_shows_it_and_remarks(self, number):
         records, state = self.folder / "records", self.folder / "gateway"
-        gateway = self.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--state", state, "--records", records)
+        gateway = self.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--state", state, "--records", records,
+                             "--scenarios", ROOT / "scenarios")
         wait_until(lambda: "\nready" in gateway.text() or not gateway.running(), 60, "the gateway is ready")
         page = Page(int(re.search(r"console: http://[^:]+:(\d+)/", gateway.text()).group(1)))
         self.assertEqual(page.get("/api/visits")[0], 401)
@@ -114,7 +117,32 @@ class Visits(EndToEnd):
         self.assertNotIn("asked", (state / "audit.log").read_text(), "the audit log keeps no words about a visit")
         for wrong in ("days=0", "days=x", "days=99999", "exhibit=" + "x" * 200):
             self.assertEqual(page.get("/api/visits?" + wrong)[0], 400, wrong)
+        self.a_page_plays_it_back(page, number)
         self.assertEqual(gateway.stop(), 0, gateway.text())
+
+    def a_page_plays_it_back(self, page, number):
+        self.assertEqual(page.get(f"/api/visits/{number}/tape")[0], 404, "nobody has asked for it")
+        for wrong in ("0000-0000-0000", "..%2f..%2fetc%2fx", number[:4], "-" * 14):
+            self.assertEqual(page.post(f"/api/visits/{wrong}/playback", {})[0], 404, wrong)
+        self.assertEqual(page.post(f"/api/visits/{number}/playback", {})[0], 200)
+        state = lambda: json.loads(page.get(f"/api/visits/{number}/playback")[2])
+        wait_until(lambda: state()["state"] != "preparing", 60, "the visit was shown again")
+        self.assertEqual((state()["state"], state()["trouble"], state()["visit"]["visit"]), ("ready", "", number))
+        tape, at, texts, frames = page.get(f"/api/visits/{number}/tape")[2], 0, [], []
+        while at < len(tape):
+            kind, size = struct.unpack_from("<II", tape, at)
+            part = tape[at + 8:at + 8 + size]
+            texts += [json.loads(part)] if kind == 1 else []
+            frames += [Frame(part)] if kind == 2 else []
+            at += 8 + (size + 3) // 4 * 4
+        self.assertEqual([step for step, _ in itertools.groupby(t["step"] for t in texts if t["type"] == "world")][:2], ["take", "seat"])
+        self.assertEqual({t["type"] for t in texts}, {"world", "scene", "presentation"})
+        record = self.visits("show", number)[0]
+        self.assertAlmostEqual((frames[-1].tick - frames[0].tick) / 1000, record["duration_s"] + 1.5, delta=1)
+        self.assertGreater(len(frames), 5 * record["duration_s"], "frames a second")
+        moved = [b for b, (_, pose) in frames[0].bodies.items() if math.dist(pose[:3], frames[-1].bodies[b][1][:3]) > 0.05]
+        self.assertTrue(moved, "a part was carried to its place")
+        self.assertTrue(any(hand["holding"] for frame in frames for hand in frame.hands), "by the visitor's hand")
 
     @marked("address")
     def test_a_killed_server_loses_the_step_at_hand_at_most_and_the_visit_goes_on(self):
