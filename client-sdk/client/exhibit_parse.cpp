@@ -35,8 +35,7 @@ bool parse(const proto::ExhibitStatus& wire, ExhibitStatus& out) {
   for (const char* name : loadable)
     out.loadable.push_back(one_line(name));
   for (const proto::WireExhibitAnswer& answer : answers) {
-    out.answers.push_back(
-        {answer.id, one_line(answer.refusal), one_line(answer.place), one_line(answer.remedy)});
+    out.answers.push_back({answer.id, one_line(answer.refusal), one_line(answer.place), one_line(answer.remedy)});
   }
   return true;
 }
