@@ -19,8 +19,8 @@ def adopt_orphans() -> None:
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
 
-def _children() -> dict[int, str]:
-    """Our living children by process id, with their command names."""
+def _children(spared: int) -> dict[int, str]:
+    """Our living children but for one, by process id, with their command names."""
     found = {}
     for entry in Path("/proc").iterdir():
         if not entry.name.isdigit():
@@ -31,7 +31,7 @@ def _children() -> dict[int, str]:
             continue
         name = stat[stat.index("(") + 1:stat.rindex(")")]
         state, parent = stat[stat.rindex(")") + 2:].split()[:2]
-        if int(parent) == os.getpid() and state != "Z":
+        if int(parent) == os.getpid() and state != "Z" and int(entry.name) != spared:
             found[int(entry.name)] = name
     return found
 
@@ -44,14 +44,15 @@ def _reap() -> None:
         pass
 
 
-def end_leftovers(grace_s: float = 3.0) -> list[str]:
-    """Ends what a finished command left running and returns the names; gives each a moment to end by itself first."""
+def end_leftovers(grace_s: float = 3.0, spared: int = 0) -> list[str]:
+    """Ends what a finished command left running, but for the process `spared`, and returns the names; gives each a moment to end by itself
+    first."""
     deadline = time.monotonic() + grace_s
-    while _children() and time.monotonic() < deadline:
+    while _children(spared) and time.monotonic() < deadline:
         _reap()
         time.sleep(0.05)
     left: list[str] = []
-    while children := _children():  # the children of those that we end become ours in turn
+    while children := _children(spared):  # the children of those that we end become ours in turn
         left += children.values()
         for pid in children:
             try:
@@ -109,6 +110,10 @@ class Beside:
             out.flush()
             self._process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                                              start_new_session=True, preexec_fn=_leave_time_to_others)
+
+    @property
+    def pid(self) -> int:
+        return self._process.pid
 
     def end(self) -> None:
         """As an interrupt by hand: a build ends its compilers and removes what they had half written. When idle, it takes its time."""

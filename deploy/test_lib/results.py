@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 
-LEFT_OUT = "left to other builds"  # tests/support/sanitizers.hpp says so
+LEFT_OUT = "left to other builds"  # tests/support/sanitizers.hpp says so, and write_junit()
 
 
 @dataclass
 class Case:
     name: str
-    outcome: str  # passed, failed, skipped (the machine lacks something), left out (another build runs it)
+    outcome: str  # passed, failed, skipped (the machine lacks something), left out (another build runs it, or the time was up)
     detail: str = ""
     seconds: float = 0.0
 

@@ -195,17 +195,18 @@ def fuzz() -> Phase:
     return Phase(f"fuzz, {FUZZ_SECONDS} s each", run, "asan-ubsan")
 
 
-def tidy() -> Phase:
+def tidy(until: float) -> Phase:
+    """Looks at nothing more after `until`: what it did not come to is counted as left out."""
     def run(log: Path) -> Tally:
         junit = log.with_suffix(".xml")
         junit.unlink(missing_ok=True)
-        processes.run([*TIDY, "--junit", str(junit)], log, limit_s=3600)
+        processes.run([*TIDY, "--junit", str(junit), "--seconds", str(max(0.0, until - time.monotonic()))], log, limit_s=3600)
         return read_junit(junit)
 
     return Phase("clang-tidy", run, "asan-ubsan", shlex.join(TIDY))
 
 
-def phases(quick: bool) -> list[Phase]:
+def phases(quick: bool, until: float = float("inf")) -> list[Phase]:
     if quick:
         return [build("quick", "in_process_tests"), programs("quick", only="in-process", leave_out="slow", others=True)]
     return [
@@ -216,20 +217,15 @@ def phases(quick: bool) -> list[Phase]:
         end_to_end("asan-ubsan", max(1, JOBS // 2), "address"),
         fuzz(),
         build("tsan", "threaded_tests"), programs("tsan", only="threads"),
-        tidy(),
+        tidy(until),
     ]
 
 
-def run_phase(phase: Phase, log: Path, later: list[Phase]) -> Tally:
+def run_phase(phase: Phase, log: Path, beside: processes.Beside | None) -> Tally:
     log.unlink(missing_ok=True)
     log.touch()
-    beside = begin_ahead(later) if phase.title.startswith("test") else None
-    try:
-        tally = phase.run(log)
-    finally:
-        if beside:
-            beside.end()
-    left = processes.end_leftovers()
+    tally = phase.run(log)
+    left = processes.end_leftovers(spared=beside.pid if beside else 0)
     if left:
         tally.cases.append(Case(f"{phase.title} ends its processes", "failed", "left running: " + ", ".join(sorted(set(left)))))
     return tally
@@ -256,15 +252,22 @@ def _cpu_s() -> float:
 def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
     """One after another; what each found goes into `done`, so that a run that is interrupted can still be reported."""
     broken: set[str] = set()  # builds that failed: their tests cannot run
+    beside: processes.Beside | None = None  # goes on from test to test: what it has half done is lost when it ends
     started = time.monotonic()
     for number, phase in enumerate(planned, 1):
         print(f"[{number}/{len(planned)}  {clock(time.monotonic() - started)}] {phase.title}", flush=True)
         if phase.preset in broken:
             print("      not run: its build failed", flush=True)
             continue
+        fills = phase.title.startswith(("test", "fuzz"))
+        if beside and not fills:
+            beside.end()
+            beside = None
+        elif fills and not beside:
+            beside = begin_ahead(planned[number:])
         begun, cpu_s = time.monotonic(), _cpu_s()
         log = OUT / f"{number}-{phase.name}.log"
-        tally = run_phase(phase, log, planned[number:])
+        tally = run_phase(phase, log, beside)
         done[phase.name] = Ran(tally, time.monotonic() - begun, _cpu_s() - cpu_s)
         if phase.title.startswith("build") and tally.failed:
             broken.add(phase.preset)
@@ -274,11 +277,16 @@ def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="deploy/test")
     parser.add_argument("--quick", action="store_true", help="one build, the tests that need no network, style")
+    parser.add_argument("--within", type=float, default=float("inf"), metavar="MINUTES",
+                        help="of a full run: after these clang-tidy begins with no more")
     parser.add_argument("--repeat", type=int, metavar="N", help=f"in-process tests N times, end-to-end and slow ones N / {RARE} times")
     parser.add_argument("--seed", type=int, default=random.randrange(1_000_000), help="of --repeat")
     parser.add_argument("--only", default="", metavar="REGEX", help="of --repeat: programs by name (unit_record), or integration.NAME")
     options = parser.parse_args()
-    planned = phases(options.quick) if options.repeat is None else repeat_phases(options.repeat, options.seed, options.only)
+    if options.repeat is None:
+        planned = phases(options.quick, time.monotonic() + 60 * options.within)
+    else:
+        planned = repeat_phases(options.repeat, options.seed, options.only)
 
     os.chdir(ROOT)
     shutil.rmtree(OUT, ignore_errors=True)

@@ -238,7 +238,7 @@ class TidyTogether(unittest.TestCase):
         self.enterContext(mock.patch.multiple(tidy, ROOT=self.root, CLEAN=self.root / ".cache/tidy"))
         tidy._includes.cache_clear()
 
-    def check(self, **rooms: str) -> dict[str, str]:
+    def check(self, *options: str, **rooms: str) -> dict[str, str]:
         """The outcome of each room."""
         tidy._content.cache_clear()
         commands = []
@@ -248,7 +248,7 @@ class TidyTogether(unittest.TestCase):
             file.write_text(text)
             commands.append({"directory": str(self.root), "file": str(file), "command": f"clang++ -std=c++20 -I{self.root} -c {file} -o {name}.o"})
         (self.root / "compile_commands.json").write_text(json.dumps(commands))
-        arguments = ["tidy.py", "--build", str(self.root), "--junit", str(self.root / "tidy.xml")]
+        arguments = ["tidy.py", "--build", str(self.root), "--junit", str(self.root / "tidy.xml"), *options]
         with mock.patch.object(sys, "argv", arguments), contextlib.redirect_stdout(io.StringIO()):
             tidy.main()
         return {case.name.split("/")[1]: case.outcome for case in read_junit(self.root / "tidy.xml").cases}
@@ -271,6 +271,10 @@ class TidyTogether(unittest.TestCase):
             self.assertEqual(set(self.check(**rooms).values()), {"passed"})
             self.assertEqual(looks.call_count, 1)
             self.assertEqual(self.check(**rooms | {"b": "int* b = 0;\n"}), {"a": "passed", "b": "failed", "c": "passed"})
+
+    def test_when_the_time_is_up_what_is_not_known_to_be_clean_is_left_out(self):
+        self.check(a="int a();\n")
+        self.assertEqual(self.check("--seconds", "0", a="int a();\n", b="int b();\n"), {"a": "passed", "b": "left out"})
 
 
 if __name__ == "__main__":

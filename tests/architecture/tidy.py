@@ -168,6 +168,12 @@ def _check_together(number: int, entries: list[dict], build: Path, configuration
     return [_check(entry, build, configuration) for entry in entries]
 
 
+def _check_in_time(until: float, number: int, entries: list[dict], build: Path, configuration: bytes) -> list[Case]:
+    if time.monotonic() < until:
+        return _check_together(number, entries, build, configuration)
+    return [Case(_name(entry, build), "left out") for entry in entries]
+
+
 def _without_repeats(words: list[str]) -> list[str]:
     """-isystem and its folder stay together."""
     pairs = [f"{word}\0{after}" if word == "-isystem" else word
@@ -208,8 +214,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=Path, default=Path("build/asan-ubsan"), help="a configured and built folder")
     parser.add_argument("--junit", type=Path, help="where to write the results")
+    parser.add_argument("--seconds", type=float, default=float("inf"), help="after these it begins with no more sources, and leaves them out")
     parser.add_argument("only", nargs="*", help="sources whose path contains one of these")
     arguments = parser.parse_args()
+    until = time.monotonic() + arguments.seconds
 
     CLEAN.mkdir(parents=True, exist_ok=True)
     version = subprocess.run([TIDY, "--version"], capture_output=True, check=True).stdout
@@ -222,13 +230,14 @@ def main() -> int:
     jobs = int(os.environ.get("MECHANE_JOBS") or os.cpu_count() or 2)
     groups = _groups([entry for entry in entries if entry not in clean], arguments.build, jobs)
     with ThreadPoolExecutor(max_workers=jobs) as pool:
-        for cases in pool.map(lambda group: _check_together(*group, arguments.build, configuration), enumerate(groups)):
+        for cases in pool.map(lambda group: _check_in_time(until, *group, arguments.build, configuration), enumerate(groups)):
             tally.cases += cases
     if not entries:
         tally.cases.append(Case("tidy", "failed", f"{arguments.build}/compile_commands.json names no source of ours"))
     if arguments.junit:
         write_junit(arguments.junit, "tidy", tally)
-    print(f"tidy: {len(entries)} sources, {len(tally.failed)} with faults")
+    left_out = tally.count("left out")
+    print(f"tidy: {len(entries)} sources, {len(tally.failed)} with faults" + (f", {left_out} left out for lack of time" if left_out else ""))
     return 1 if tally.failed else 0
 
 

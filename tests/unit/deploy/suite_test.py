@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -210,18 +211,27 @@ class Phases(unittest.TestCase):
         self.assertIn("the reason", said)
         self.assertIn("not run: its build failed", said)
 
-    def test_only_the_tests_of_a_full_run_are_filled_with_what_comes_later(self):
+    def test_tests_are_filled_with_what_comes_later_from_one_to_the_next(self):
         order = []
-        beside = mock.Mock(end=lambda: order.append("end"))
+        beside = mock.Mock(end=lambda: order.append("end"), pid=0)
         planned = [suite.Phase(title, lambda log, title=title: order.append(title) or Tally(), "one")
-                   for title in ("build one", "test one", "fuzz", "clang-tidy")]
+                   for title in ("build one", "test one", "fuzz", "build two", "test two", "clang-tidy")]
         with mock.patch.object(suite.processes, "Beside", lambda command, log: order.append(command[-1]) or beside):
             self.run_phases(*planned)
-            self.assertEqual(order, ["build one", "test one", "fuzz", "clang-tidy"])
+            self.assertEqual(order, [phase.title for phase in planned])
             order.clear()
-            planned[0].ahead, planned[2].ahead, planned[3].ahead = "earlier", "one", "another"
+            planned[0].ahead, planned[3].ahead, planned[5].ahead = "earlier", "one", "another"
             self.run_phases(*planned)
-            self.assertEqual(order, ["build one", "one && another", "test one", "end", "fuzz", "clang-tidy"])
+            self.assertEqual(order, ["build one", "one && another", "test one", "fuzz", "end", "build two", "another", "test two", "end", "clang-tidy"])
+
+    def test_what_runs_beside_a_test_is_spared_when_the_test_ends(self):
+        suite.processes.adopt_orphans()
+        beside = suite.processes.Beside(["sleep", "60"], suite.OUT / "log")
+        left = subprocess.Popen(["sleep", "61"])
+        self.assertEqual(suite.processes.end_leftovers(0, beside.pid), ["sleep"])
+        self.assertRaises(ProcessLookupError, os.kill, left.pid, 0)
+        os.kill(beside.pid, 0)  # raises if it is gone
+        beside.end()
         ahead = [[phase.title for phase in suite.phases(quick) if phase.ahead] for quick in (True, False)]
         self.assertEqual(ahead, [["build quick"], ["build release", "build asan-ubsan", "build tsan", "clang-tidy"]])
 
