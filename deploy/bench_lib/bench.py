@@ -18,13 +18,14 @@ import gateway
 import haptics
 import machine
 import path
+import studio
 import worlds
 from peers import Measured
 from plots import number
 
 ROOT = Path(__file__).resolve().parents[2]
 BENCHMARKS = {"path": path, "collision": collision, "fields": fields, "haptics": haptics, "worlds": worlds, "display": display,
-              "gateway": gateway}
+              "gateway": gateway, "studio": studio}
 
 
 @dataclass

@@ -232,10 +232,10 @@ def measure_connections(context) -> Measured:
                      "connections.grown_mib": rounds[0][2] - before, "connections.grown_again_mib": rounds[-1][2] - rounds[0][2]})
 
 
-def measure(context) -> tuple[Measured, list[str]]:
+def measured_parts(context, parts) -> tuple[Measured, list[str]]:
     """Everything that could be measured, and what could not."""
     result, missing = Measured(), []
-    for name, part in (("load", measure_load), ("stream", measure_stream), ("connections", measure_connections)):
+    for name, part in parts:
         print(f"  {name} ...", flush=True)
         try:
             one = part(context)
@@ -246,6 +246,10 @@ def measure(context) -> tuple[Measured, list[str]]:
         result.curves |= one.curves
         result.notes += one.notes
     return result, missing
+
+
+def measure(context) -> tuple[Measured, list[str]]:
+    return measured_parts(context, (("load", measure_load), ("stream", measure_stream), ("connections", measure_connections)))
 
 
 def plot(result: Measured, out: Path, machine: str) -> list[Path]:

@@ -2,10 +2,11 @@
 
 import json
 import shutil
+import subprocess
 import unittest
 
 from browser import Page, WithGateway
-from harness import ROOT, marked
+from harness import PATIENCE, ROOT, marked
 
 SCREW = "archimedes-screw"
 DRAFT = f"/api/studio/drafts/{SCREW}"
@@ -145,6 +146,24 @@ class Studio(WithGateway):
         actions = [entry["action"] for entry in self.got(operator, "/api/audit")["entries"]]
         self.assertIn(f"{DRAFT}/publish", actions)
         self.assertEqual(process.stop(), 0, process.text()[-2000:])
+
+    @marked("draws")
+    def test_a_crane_is_made_in_a_browser_from_an_empty_page_and_worked_by_a_visitor(self):
+        process, _ = self.gateway("--scenarios", self.scenarios)
+        script = ROOT / "client-sdk/web/tests/browser/crane.mjs"
+        made = subprocess.run(["node", script, f"http://127.0.0.1:{self.port}", self.password, "my-crane"], capture_output=True, text=True,
+                              timeout=600 * PATIENCE)
+        self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+        self.assertEqual(process.stop(), 0, process.text()[-2000:])
+        crane = self.scenarios / "my-crane/my-crane.x3d"
+        checked = self.run_command("check", crane)
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        # A reader of X3D that shares nothing with ours.
+        read = subprocess.run(["tovrmlx3d", crane, "--encoding=xml"], capture_output=True, text=True)
+        self.assertEqual((read.returncode, "error" in read.stderr.lower()), (0, False), read.stderr)
+        self.server(scenario=crane, records=False)
+        visit = self.run_command("visitor", "--kiosk", "kiosk-1", "--scenario", crane, "--visit", "trying", limit_s=120)
+        self.assertEqual(visit.returncode, 0, visit.stdout + visit.stderr)
 
 
 if __name__ == "__main__":

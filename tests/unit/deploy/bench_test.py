@@ -13,6 +13,7 @@ import against  # noqa: E402
 import aims  # noqa: E402
 import bench  # noqa: E402
 import gateway  # noqa: E402
+import studio  # noqa: E402
 import plots  # noqa: E402
 import worlds  # noqa: E402
 from peers import Measured  # noqa: E402
@@ -104,6 +105,25 @@ class Gateway(unittest.TestCase):
         self.assertTrue(gateway.polite(head + b'{"error": "full", "remedy": "try again"}'))
         for rude in (b"", head, head + b'{"error": "full"}', b"HTTP/1.1 503 No\r\n\r\n{}"):
             self.assertFalse(gateway.polite(rude), rude)
+
+
+class Studio(unittest.TestCase):
+    def test_a_draft_is_filled_until_it_has_so_many_nodes_without_its_metadata(self):
+        class Fake:
+            """Its boxes have three nodes."""
+            boxes, revision = 0, 0
+
+            def get(self, path):
+                return b"<X3D><Scene><WorldInfo><MetadataSet/></WorldInfo>" + self.boxes * b"<Transform><Shape/><Box/></Transform>" + b"</Scene></X3D>"
+
+            def post(self, path, body):
+                assert body.get("revision", 0) == self.revision
+                self.boxes += len(body.get("commands", []))
+                self.revision += 1
+                return {"revision": self.revision}
+
+        draft, count = studio.begin(Fake(), "many", 500)
+        self.assertEqual((draft["revision"], count), (3, 502))
 
 
 class Lines(unittest.TestCase):

@@ -49,14 +49,17 @@ export async function until(page, what, wanted, limit_s = 30) {
 
 /** One finger, by Chromium's own input: the page cannot tell it from a real one. */
 export class Finger {
-  constructor(session) {
+  constructor(session, corner) {
     this.session = session;
+    this.corner = corner;
   }
-  static async on(page) {
-    return new Finger(await page.context().newCDPSession(page));
+  /** `corner`: of the frame whose pixels are meant, in the page. */
+  static async on(page, corner = { x: 0, y: 0 }) {
+    return new Finger(await page.context().newCDPSession(page), corner);
   }
   async say(type, points) {
-    await this.session.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+    const touchPoints = points.map(({ x, y }) => ({ x: x + this.corner.x, y: y + this.corner.y }));
+    await this.session.send('Input.dispatchTouchEvent', { type, touchPoints });
   }
   async press(at) {
     this.at = at;
