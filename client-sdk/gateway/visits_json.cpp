@@ -124,8 +124,7 @@ std::string visits_json(const VisitsFound& found) {
   for (const visits::ActivitySummary& activity : activities)
     list.push_back(activity_json(activity));
   for (const visits::DayCount& day : visits::count_days(found.records, found.since, found.now))
-    days.push_back(
-        {{"day", visits::minute_text(day.first_minute).substr(0, 10)}, {"visits", day.visits}, {"done", day.done}});
+    days.push_back({{"day", day.day}, {"visits", day.visits}, {"done", day.done}});
   const std::size_t told = std::min(found.records.size(), kVisitsTold);
   for (const VisitRecord& record : std::span(found.records).last(told))
     recent.insert(recent.begin(), visit_json(record));

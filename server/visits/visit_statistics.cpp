@@ -1,7 +1,9 @@
 #include "server/visits/visit_statistics.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 #include <tuple>
 
@@ -154,14 +156,25 @@ std::vector<EndingCount> count_by(std::span<const VisitRecord> records, std::str
   return sorted;
 }
 
+namespace {
+
+std::chrono::sys_days local_day(std::int64_t minute) {
+  const std::time_t seconds = minute * 60;
+  std::tm local{};
+  ::localtime_r(&seconds, &local);
+  return std::chrono::year(local.tm_year + 1900) / (local.tm_mon + 1) / local.tm_mday;
+}
+
+}  // namespace
+
 std::vector<DayCount> count_days(std::span<const VisitRecord> records, std::int64_t first_minute,
                                  std::int64_t last_minute) {
-  constexpr std::int64_t kDay = std::int64_t{24} * 60;
+  const std::chrono::sys_days first = local_day(first_minute), last = local_day(last_minute);
   std::vector<DayCount> days;
-  for (std::int64_t day = first_minute / kDay; day <= last_minute / kDay; ++day)
-    days.push_back({.first_minute = day * kDay});
+  for (auto day = first; day <= last; day += std::chrono::days(1))
+    days.push_back({.day = minute_text(std::chrono::minutes(day.time_since_epoch()).count()).substr(0, 10)});
   for (const VisitRecord& record : records) {
-    const std::int64_t place = record.minute / kDay - first_minute / kDay;
+    const std::int64_t place = (local_day(record.minute) - first).count();
     if (place < 0 || place >= static_cast<std::int64_t>(days.size())) continue;
     DayCount& day = days[static_cast<std::size_t>(place)];
     ++day.visits;

@@ -79,11 +79,11 @@ struct EndingCount {
 [[nodiscard]] std::vector<EndingCount> count_by(std::span<const VisitRecord> records, std::string VisitRecord::*field);
 
 struct DayCount {
-  std::int64_t first_minute = 0;  ///< since 1970 UTC
+  std::string day;  ///< "2026-11-29"
   std::size_t visits = 0;
   std::size_t done = 0;
 };
-/// Each day (UTC) from that of the first minute to that of the last one, those without a visit too. Visits outside do not count.
+/// Each day of this machine's time zone from that of the first minute to that of the last one, those without a visit too. Visits outside do not count.
 [[nodiscard]] std::vector<DayCount> count_days(std::span<const VisitRecord> records, std::int64_t first_minute,
                                                std::int64_t last_minute);
 

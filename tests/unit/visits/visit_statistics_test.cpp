@@ -1,6 +1,8 @@
 #include "server/visits/visit_statistics.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <ctime>
 #include <numeric>
 
 #include <gmock/gmock.h>
@@ -68,13 +70,28 @@ RC_GTEST_PROP(VisitStatistics, DaysAndWordsPartTheVisits, ()) {
   const auto days = count_days(records, 29'000'000, 29'000'000 + 10 * 24 * 60);
   RC_ASSERT(sum_of(days, &DayCount::visits) == records.size());
   for (std::size_t i = 1; i < days.size(); ++i)
-    RC_ASSERT(days[i].first_minute - days[i - 1].first_minute == 24 * 60);
+    RC_ASSERT(*minute_of_text(days[i].day) - *minute_of_text(days[i - 1].day) == 24 * 60);
   for (const auto field : {&VisitRecord::scenario, &VisitRecord::language}) {
     const auto counts = count_by(records, field);
     RC_ASSERT(sum_of(counts, &EndingCount::visits) == records.size());
     for (const EndingCount& count : counts)
       RC_ASSERT(count.done + count.left <= count.visits && count.done_alone <= count.done);
   }
+}
+
+TEST(VisitStatistics, ADayIsOneOfTheMuseumsClock) {
+  ::setenv("TZ", "Europe/Athens", 1);
+  ::tzset();
+  std::vector<VisitRecord> records(2);
+  records[0].minute = *minute_of_text("2026-07-01 20:59");
+  records[1].minute = *minute_of_text("2026-07-01 21:00");  // midnight in Athens
+  const auto days = count_days(records, records[0].minute, records[1].minute);
+  ::unsetenv("TZ");
+  ::tzset();
+  ASSERT_THAT(days, SizeIs(2));
+  EXPECT_EQ(days[0].day, "2026-07-01");
+  EXPECT_EQ(days[1].day, "2026-07-02");
+  EXPECT_EQ(days[1].visits, 1);
 }
 
 /// Reads a line of RFC 4180; `at` is behind it then.
