@@ -24,6 +24,11 @@ struct AddSet {
   std::string path;
   std::string after;  ///< a sibling; empty: as the last one
 };
+/// A set of the metadata to another place among its siblings.
+struct ReorderSet {
+  std::string path;
+  std::string after;  ///< a sibling; empty: before the others
+};
 struct RemoveEntry {
   std::string path;
 };
@@ -82,8 +87,8 @@ struct AddView {
   double field_of_view_rad = 0;  ///< 0: X3D's own
   std::string description;       ///< its name in lists; empty: none
 };
-using Command = std::variant<SetValue, AddSet, RemoveEntry, SetField, RenameEverywhere, InsertPart, InsertMesh,
-                             DuplicateBody, DeleteNode, MoveNode, JoinBodies, AddView>;
+using Command = std::variant<SetValue, AddSet, ReorderSet, RemoveEntry, SetField, RenameEverywhere, InsertPart,
+                             InsertMesh, DuplicateBody, DeleteNode, MoveNode, JoinBodies, AddView>;
 
 /// Commands for one revision of a draft: one step.
 struct CommandList {

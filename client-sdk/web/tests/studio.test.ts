@@ -5,6 +5,7 @@ import { Draft, type DraftRequests, type DraftState, type Order } from '../src/s
 import { filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/files';
 import { agentsOf, ruleText, stepsOf } from '../src/studio/flow';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/joint';
+import { isOrdered, orderCommands } from '../src/studio/order';
 import { found } from '../src/studio/palette';
 import { beyond, keyIn, namesFor, schemaOf, tableAt } from '../src/studio/schema';
 import { missingIn, wordGroups } from '../src/studio/texts';
@@ -305,4 +306,28 @@ it('a draft that is not there is said, and not asked for again', async () => {
   let state: DraftState | null = null;
   await new Draft(gateway, (next) => (state = next)).open();
   expect(state).toMatchObject({ view: null, refusals: { '': { message: 'there is no draft' } } });
+});
+
+it('a set is moved among its kind, and rules to the next step follow', () => {
+  const go = (name: string) => set('trigger:1', value('next', name));
+  const made = view({ metadata: set('mechane:scenario', set('visits', set('v', value('activity', 'use'), set('move:1'), set('move:2'))),
+    set('activities', set('build'), set('use', value('first', 'a'), set('text'), set('steps', set('a', set('text'), go('b'), set('object:X'),
+      set('trigger:2', value('next', 'd'))), set('b', go('a'), value('timeoutSeconds', 9), value('timeoutNext', 'c')),
+    set('c', go('d')), set('d', set('trigger:1')))))) });
+  const steps = 'activities/use/steps';
+  expect(orderCommands(made, `${steps}/a`, -1, true)).toEqual([]);
+  expect(orderCommands(made, `${steps}/nothing`, 1, true)).toEqual([]);
+  expect(orderCommands(made, `${steps}/d`, -1, false)).toEqual([{ op: 'reorder', path: `${steps}/d`, after: 'b' }]);
+  expect(orderCommands(made, `${steps}/d`, -1, true)).toEqual([{ op: 'reorder', path: `${steps}/d`, after: 'b' },
+    { op: 'set', path: `${steps}/b/timeoutNext`, value: 'd' }, { op: 'set', path: `${steps}/c/trigger:1/next`, value: 'end' },
+    { op: 'set', path: `${steps}/d/trigger:1/next`, value: 'c' }]);
+  expect(orderCommands(made, `${steps}/b`, -1, true)).toEqual([{ op: 'reorder', path: `${steps}/b` },
+    { op: 'set', path: `${steps}/a/trigger:1/next`, value: 'c' }, { op: 'set', path: `${steps}/b/timeoutNext`, value: 'a' },
+    { op: 'set', path: 'activities/use/first', value: 'b' }]);
+  expect(orderCommands(made, `${steps}/a/trigger:2`, -1, true)).toEqual(
+    [{ op: 'reorder', path: `${steps}/a/trigger:2`, after: 'text' }]);
+  expect(orderCommands(made, 'activities/use', -1, true)).toEqual([{ op: 'reorder', path: 'activities/use' }]);
+  expect(orderCommands(made, 'visits/v/move:1', 1, true)).toEqual([{ op: 'reorder', path: 'visits/v/move:1', after: 'move:2' }]);
+  expect(['activities/use', `${steps}/a`, 'visits/v/move:2', 'agents/HOLD', `${steps}/a/text`].map(isOrdered)).toEqual(
+    [true, true, true, false, false]);
 });

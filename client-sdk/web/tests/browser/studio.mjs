@@ -122,6 +122,22 @@ const parts = {
     assert.ok(await page.isVisible('text=height > 0.965 → guide'));
     await accessible('flow');
   },
+  async 'a step is moved by key and by button, its rules lead on in the new order, and the focus stays'() {
+    const steps = () => page.locator('tbody th button').allTextContents();
+    await page.focus('tbody button:text-is("2. lift")');
+    await page.keyboard.press('Alt+ArrowUp');
+    await page.waitForSelector('tbody button:text-is("1. lift"):focus');
+    const of = (step, key) => `activities/use/steps/${step}/${key}`;
+    assert.deepEqual(sent(), [{ op: 'reorder', path: of('lift', '').slice(0, -1) },
+      { op: 'set', path: of('grasp', 'trigger:1/next'), value: 'guide' }, { op: 'set', path: of('lift', 'trigger:1/next'), value: 'grasp' }]);
+    await page.waitForSelector('[role=status]:text-is("lift: 1 of 3")', { state: 'attached' });
+    await page.keyboard.press('Alt+ArrowUp');
+    await page.click('ol [aria-label="Move lift down"]');
+    await page.waitForSelector('ol li:nth-child(2) [aria-label="Move lift down"]:focus');
+    assert.deepEqual(await steps(), ['1. grasp', '2. lift', '3. guide']);
+    assert.ok(await page.isVisible('text=held > 0.5 for 0.2 s → lift'));
+    await accessible('order');
+  },
   async 'all is done by keys: the contents, the view, the palette'() {
     await page.keyboard.press('Control+k');
     await page.keyboard.type('scene');

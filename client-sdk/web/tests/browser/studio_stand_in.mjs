@@ -227,6 +227,13 @@ export class StudioStandIn extends StandIn {
       case 'add':
         around(root, path).children.push(set(name));
         return [];
+      case 'reorder': {
+        const { children } = around(root, path);
+        const [moved] = children.splice(children.findIndex((c) => c.name === name), 1);
+        children.splice(children.findIndex((c) => (command.after ? c.name === command.after : c.kind === 'set')) + (command.after ? 1 : 0),
+          0, moved);
+        return [];
+      }
       case 'remove': {
         const parent = around(root, path);
         parent.children = parent.children.filter((c) => c.name !== name);
