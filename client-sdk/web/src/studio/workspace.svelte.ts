@@ -66,20 +66,21 @@ export class Workspace {
   async edit(id: string, what: string, commands: Edit['commands']): Promise<Outcome> {
     return this.draft.edit({ id, what, commands });
   }
-  /** Moves a set up (-1) or down (1) among those that it stands with. What has the focus keeps it. */
-  async reorder(path: string, by: -1 | 1): Promise<void> {
+  /** Moves a set up (-1) or down (1) among those that it stands with. */
+  reorder(path: string, by: -1 | 1): Promise<void> {
     const commands = orderCommands(this.view, path, by, this.rulesFollow);
+    return this.place(path.split('/').at(-1)!, commands, () => siblingsOf(this.view, path));
+  }
+  /** Puts something elsewhere, and says where it is among `all` then. What has the focus keeps it. */
+  async place(name: string, commands: Edit['commands'], all: () => string[]): Promise<void> {
     if (this.moving || commands.length === 0) return;
     this.moving = true;
-    const name = path.split('/').at(-1)!;
     const focused = document.activeElement;
     const outcome = await this.edit('', this.words.edits.move(name), commands);
     await tick();
     this.moving = false;
     if (focused instanceof HTMLElement && focused.isConnected) focused.focus();
-    if (outcome !== 'done') return;
-    const siblings = siblingsOf(this.view, path);
-    this.placed = this.words.order.placed(name, siblings.indexOf(name) + 1, siblings.length);
+    if (outcome === 'done') this.placed = this.words.order.placed(name, all().indexOf(name) + 1, all().length);
   }
   /** What was typed in a field is in the draft, or is given up. */
   forget(id: string): void {

@@ -18,7 +18,8 @@ const kSchema = {
       number('effortScale', { least: 1e-4, most: 1, default: 1, doc: 'share of a machine’s loads that the hand feels' })],
     sets: [text, { name: 'quantities', keys: [], sets: [{ name: '*', keys: [key('source', 'string'), key('unit', 'string')], sets: [] }] },
       { name: 'activities', keys: [], sets: [{ name: '*', doc: 'a task for a visitor', keys: [key('first', 'string', { names: 'step' })],
-        sets: [text,
+        sets: [text, { name: 'questionnaire', keys: [], sets: [{ name: '*', keys: [key('kind', 'string'), key('answers', 'strings'),
+          key('correct', 'string'), number('steps', { least: 2, most: 11, default: 5 })], sets: [text] }] },
         { name: 'steps', keys: [], sets: [{ name: '*', doc: 'one thing to do', keys: [
           key('enable', 'strings', { names: 'agent' }), key('disable', 'strings', { names: 'agent' }),
           number('hintSeconds', { unit: 's', least: 0, most: 3600, default: 20, doc: 'when the hint is shown' }),
@@ -156,6 +157,9 @@ export class StudioStandIn extends StandIn {
     };
     Object.assign(this, { revision: 3, by: 'eleni', undone: [], done: [] });
     this.trial = null;
+  }
+  question(name) {
+    return find(this.draft.metadata, `activities/use/questionnaire/${name}`);
   }
   moment(sequence) {
     return this.trial ? this.trial.moment() : super.moment(sequence);
