@@ -26,15 +26,15 @@ std::size_t end_with_comments(std::string_view source, std::size_t end) {
 }
 
 /// A part of the source, as offsets.
-struct Piece {
+struct Stretch {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
 /// The children of an element, each with its comments, in the order written. Only blanks and line ends are between them.
-std::vector<Piece> pieces_of(const x3d::Document& document, const std::vector<x3d::NodeId>& children) {
+std::vector<Stretch> stretches_of(const x3d::Document& document, const std::vector<x3d::NodeId>& children) {
   const std::string_view source = document.source();
-  std::vector<Piece> pieces;
+  std::vector<Stretch> pieces;
   std::size_t free = end_with_comments(source, document[document[children.front()].parent].span.tag_end);
   for (const x3d::NodeId child : children) {
     pieces.push_back({source.find_first_not_of(kSpace, free), end_with_comments(source, document[child].span.end)});
@@ -155,8 +155,8 @@ void move_element(const x3d::Document& document, x3d::NodeId element, x3d::NodeI
                   TextEdits& edits) {
   const std::vector<x3d::NodeId> siblings = document.child_elements(document[element].parent);
   const auto place = [&](x3d::NodeId id) { return std::find(siblings.begin(), siblings.end(), id) - siblings.begin(); };
-  const std::vector<Piece> pieces = pieces_of(document, siblings);
-  std::vector<Piece> moved = pieces;
+  const std::vector<Stretch> pieces = stretches_of(document, siblings);
+  std::vector<Stretch> moved = pieces;
   const auto from = moved.begin() + place(element);
   const auto to = moved.begin() + (after ? place(after) + 1 : place(first));
   if (from < to)

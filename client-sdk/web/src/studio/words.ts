@@ -244,6 +244,11 @@ const kEnglish = {
     intro: 'The draft runs here as visitors will find it, in a world of its own. What visitors see does not change.',
     start: 'Start it',
     again: 'Start anew',
+    from: 'Begin at',
+    fromStart: 'the start',
+    tryFrom: (step: string) => `Try it from ${step}`,
+    begunAt: (step: string) => `It began at ${step}. Agents and bodies are as the steps before it say. What a visitor would have ` +
+      'done until then is not done: bodies that no step puts somewhere, and water, are as at the start.',
     changed: 'The draft has changed since this began.',
     waits: 'The draft has errors: mend them first.',
     starting: 'It is starting …',
@@ -535,6 +540,11 @@ const kGreek: StudioWords = {
     intro: 'Το σχέδιο τρέχει εδώ όπως θα το βρουν οι επισκέπτες, σε δικό του κόσμο. Ό,τι βλέπουν οι επισκέπτες δεν αλλάζει.',
     start: 'Εκκίνηση',
     again: 'Νέα εκκίνηση',
+    from: 'Αρχή από',
+    fromStart: 'την αρχή',
+    tryFrom: (step) => `Δοκιμή από το βήμα ${step}`,
+    begunAt: (step) => `Άρχισε από το βήμα ${step}. Δράσεις και σώματα είναι όπως λένε τα προηγούμενα βήματα. Όσα θα είχε κάνει ` +
+      'ως τότε ένας επισκέπτης δεν έχουν γίνει: σώματα που δεν τα τοποθετεί κάποιο βήμα, και το νερό, είναι όπως στην αρχή.',
     changed: 'Το σχέδιο άλλαξε από τότε που άρχισε η δοκιμή.',
     waits: 'Το σχέδιο έχει σφάλματα: διορθώστε τα πρώτα.',
     starting: 'Ξεκινά …',

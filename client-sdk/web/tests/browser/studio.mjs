@@ -287,8 +287,10 @@ const parts = {
       style.replaceSync('iframe { display: none !important; }');
       document.adoptedStyleSheets = [style];
     });
-    await page.focus('.bar button:text-is("Commands")');
-    await page.keyboard.press('Control+Enter');
+    await go('Flow');
+    await page.click('[aria-label="Try it from lift"]');
+    await page.waitForSelector('.notice:has-text("It began at use / lift")');
+    assert.deepEqual(gateway.asked.at(-1).body, { revision: gateway.revision, step: 'use/lift' });
     const kiosk = page.frameLocator('iframe[title="The exhibit as a visitor finds it"]');
     await kiosk.locator('text=Turn the crank').first().waitFor({ state: 'attached' });
     // It stays while another part is shown.
@@ -323,8 +325,11 @@ const parts = {
     // A field beside it, then a start anew with what was changed.
     await page.click('.still li:has-text("FRAME") button:text-is("Go to the field")');
     await type('FRAME/mechane:haptic/stiffness', '700');
-    await page.click('.notice button:text-is("Start anew")');
+    await page.selectOption('.controls .from select', '');
+    await page.focus('.notice button:text-is("Start anew")');
+    await page.keyboard.press('Control+Enter');
     await page.waitForSelector('.notice', { state: 'detached' });
+    assert.deepEqual(gateway.asked.findLast((one) => one.path.endsWith('/preview')).body, { revision: gateway.revision });
     await page.click('.inspector button:text-is("Watch")');
     await page.waitForSelector('.time:has-text("step lift")');
     await accessible('preview', 'dark');

@@ -94,8 +94,9 @@ class Trial {
   at = performance.now();
   liftedAt = Infinity;
 
-  constructor(revision, wanted, stepped) {
-    Object.assign(this, { revision, wanted, stepped, looks: 0 });
+  constructor(revision, begins, wanted, stepped) {
+    Object.assign(this, { revision, begins, wanted, stepped, looks: 0 });
+    if (begins) this.step = begins.split('/')[1];
   }
   get height() {
     return Math.min(0.186 + Math.max(this.tick - this.liftedAt, 0) / 1000, 1.2);
@@ -128,7 +129,7 @@ class Trial {
       remedy: { el: 'Κάντε το κινητό.', en: 'Make it movable.' }, path: 'FRAME/mechane:haptic/stiffness' };
     const off = { kind: 'off', text: { el: 'Η δράση GUIDE είναι κλειστή σε αυτό το βήμα.', en: 'GUIDE is off in this step.' },
       path: 'activities/use/steps/lift/trigger:1/value' };
-    return { state: 'running', revision: this.revision, pace: this.pace, kiosk: 'studio-my-crane', activity: 'use', step: this.step,
+    return { state: 'running', revision: this.revision, begins: this.begins, pace: this.pace, kiosk: 'studio-my-crane', activity: 'use', step: this.step,
       address: '/kiosk/studio-my-crane?token=t', socket: '/ws/kiosk/studio-my-crane?token=t', time_s: this.tick / 1000,
       still: [{ def: 'FRAME', reasons: [fixed] }, ...(this.step === 'lift' ? [{ def: 'LOAD', reasons: [off] }] : [])] };
   }
@@ -173,8 +174,8 @@ export class StudioStandIn extends StandIn {
   preview(verb, body) {
     if (verb === '' && body.revision === this.revision) {
       const wanted = find(this.draft.metadata, 'activities/use/steps/lift/trigger:1/value').value;
-      this.trial = new Trial(this.revision, wanted, () => this.begin('guide'));
-      this.begin('lift');
+      this.trial = new Trial(this.revision, body.step, wanted, () => this.begin('guide'));
+      this.begin(this.trial.step);
     } else if (verb === '' && 'revision' in body) {
       return [409, { error: 'the draft was changed meanwhile', remedy: 'look at it, and start it again', revision: this.revision }];
     } else if (verb === '/pace') {
