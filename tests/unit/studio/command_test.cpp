@@ -408,6 +408,10 @@ TEST(Commands, FaultyRequestsNameThePlace) {
     EXPECT_EQ(list.error().where, where) << json;
     EXPECT_FALSE(list.error().remedy.empty()) << json;
   }
+  EXPECT_EQ(parse_trial(R"({"revision": 3, "step": "use/lift"})")->step, "use/lift");
+  EXPECT_EQ(parse_trial(R"({"revision": 3})")->step, "");
+  EXPECT_EQ(parse_trial(R"({"revision": 3, "step": 4})").error().where, "step");
+  EXPECT_EQ(parse_trial(R"({"step": "use/lift"})").error().where, "revision");
   EXPECT_FALSE(parse_command_list(std::string(5000, '[')));
   EXPECT_THAT(parse_command_list(std::string(kMostCommandBytes + 1, ' ')).error(), is_fault(ErrorCode::too_large));
   const auto good =
