@@ -1,5 +1,6 @@
 #include "client-sdk/authoring/editor.hpp"
 
+#include <algorithm>
 #include <span>
 
 #include <fmt/format.h>
@@ -81,6 +82,23 @@ Expected<Spot> find_spot(const x3d::Document& document, std::string_view path) {
     return fail(ErrorCode::conflict, fmt::format("'{}' is a value, not a set", spot->rest.front()),
                 Place(std::string(path), document[value].line), "remove it first, then write it as a set");
   return spot;
+}
+
+/// The element of that name within a set, as written: one with USE is not resolved. None where there is no such element.
+x3d::NodeId element_in(const x3d::Document& document, x3d::NodeId set, std::string_view name) {
+  const x3d::NodeId named = x3d::find_child(document, set, name);
+  for (const x3d::NodeId child : document.child_elements(set)) {
+    if (named && document.resolve(child) == named) return child;
+  }
+  return x3d::NodeId::none();
+}
+
+std::vector<std::string> sets_in(const x3d::Document& document, x3d::NodeId set) {
+  std::vector<std::string> names;
+  for (const x3d::NodeId child : document.child_elements(set)) {
+    if (document[child].name == "MetadataSet") names.push_back(x3d::name_of(document, child));
+  }
+  return names;
 }
 
 /// The scope of a new set of that name; an error where it may not be here.
@@ -250,6 +268,27 @@ Expected<void> Editor::add(std::string_view path, std::string_view after) {
     edits.insert(document_[sibling].span.end, text);
   }
   return become(edits.apply(this->text()));
+}
+
+Expected<void> Editor::reorder(std::string_view path, std::string_view after) {
+  const auto spot = find_spot(document_, path);
+  if (!spot) return tl::unexpected(spot.error());
+  const std::string& name = spot->rest.front();
+  const x3d::NodeId moved = spot->rest.size() == 1 ? element_in(document_, spot->set, name) : x3d::NodeId::none();
+  if (!moved || document_[moved].name != "MetadataSet")
+    return fail(ErrorCode::unknown_name, fmt::format("there is no set '{}' to move", name), std::string(path),
+                suggest(name, sets_in(document_, spot->set), "only sets are moved"));
+  const x3d::NodeId sibling = after.empty() ? x3d::NodeId::none() : element_in(document_, spot->set, after);
+  if (!after.empty() && (!sibling || sibling == moved))
+    return fail(ErrorCode::unknown_name, fmt::format("'{}' cannot be put after '{}'", name, after),
+                Place(std::string(path), document_[moved].line),
+                suggest(std::string(after), sets_in(document_, spot->set), "name another set beside it"));
+  const std::vector<x3d::NodeId> children = document_.child_elements(spot->set);
+  const auto first =
+      std::ranges::find_if(children, [&](x3d::NodeId id) { return document_[id].name == "MetadataSet"; });
+  TextEdits edits;
+  move_element(document_, moved, sibling, *first, edits);
+  return become(edits.apply(text()));
 }
 
 Expected<void> Editor::remove(std::string_view path) {

@@ -37,6 +37,8 @@ class Editor {
   [[nodiscard]] Expected<void> set(std::string_view path, const state::Parameter& value);
   /// Adds an empty set, such as a step, after its sibling `after`; empty: as the last one.
   [[nodiscard]] Expected<void> add(std::string_view path, std::string_view after = {});
+  /// Moves a set to the place after its sibling `after`; empty: before the other sets around it. Comments before it go with it.
+  [[nodiscard]] Expected<void> reorder(std::string_view path, std::string_view after = {});
   /// Removes a value or a set. References to it stay; check() reports them.
   [[nodiscard]] Expected<void> remove(std::string_view path);
   /// Writes a field of the X3D node with that DEF. Errors: no such node, a field that X3D does not have, a faulty value.

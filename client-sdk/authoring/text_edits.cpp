@@ -12,6 +12,37 @@ namespace {
 constexpr std::string_view kBlank = " \t";
 constexpr std::string_view kSpace = " \t\r\n";
 
+/// Where an element ends with the comments that follow it on its line, and end the line.
+std::size_t end_with_comments(std::string_view source, std::size_t end) {
+  std::size_t at = source.find_first_not_of(kBlank, end);
+  while (at != std::string_view::npos && source.substr(at).starts_with("<!--")) {
+    const std::size_t close = source.find("-->", at);
+    if (close == std::string_view::npos) return end;
+    const std::size_t next = source.find_first_not_of(kBlank, close + 3);
+    if (next != std::string_view::npos && (source[next] == '\n' || source[next] == '\r')) return close + 3;
+    at = next;
+  }
+  return end;
+}
+
+/// A part of the source, as offsets.
+struct Stretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// The children of an element, each with its comments, in the order written. Only blanks and line ends are between them.
+std::vector<Stretch> stretches_of(const x3d::Document& document, const std::vector<x3d::NodeId>& children) {
+  const std::string_view source = document.source();
+  std::vector<Stretch> pieces;
+  std::size_t free = end_with_comments(source, document[document[children.front()].parent].span.tag_end);
+  for (const x3d::NodeId child : children) {
+    pieces.push_back({source.find_first_not_of(kSpace, free), end_with_comments(source, document[child].span.end)});
+    free = pieces.back().end;
+  }
+  return pieces;
+}
+
 }  // namespace
 
 void TextEdits::replace(std::size_t begin, std::size_t end, std::string with) {
@@ -118,6 +149,26 @@ void remove_element(const x3d::Document& document, x3d::NodeId element, TextEdit
   const std::size_t next = after.find_first_not_of(kBlank);
   const bool ends_line = next != std::string_view::npos && (after[next] == '\n' || after[next] == '\r');
   edits.replace(span.begin - (ends_line ? margin : 0), span.end, "");
+}
+
+void move_element(const x3d::Document& document, x3d::NodeId element, x3d::NodeId after, x3d::NodeId first,
+                  TextEdits& edits) {
+  const std::vector<x3d::NodeId> siblings = document.child_elements(document[element].parent);
+  const auto place = [&](x3d::NodeId id) { return std::find(siblings.begin(), siblings.end(), id) - siblings.begin(); };
+  const std::vector<Stretch> pieces = stretches_of(document, siblings);
+  std::vector<Stretch> moved = pieces;
+  const auto from = moved.begin() + place(element);
+  const auto to = moved.begin() + (after ? place(after) + 1 : place(first));
+  if (from < to)
+    std::rotate(from, from + 1, to);
+  else
+    std::rotate(to, from, from + 1);
+  const std::string_view source = document.source();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (moved[i].begin != pieces[i].begin)
+      edits.replace(pieces[i].begin, pieces[i].end,
+                    std::string(source.substr(moved[i].begin, moved[i].end - moved[i].begin)));
+  }
 }
 
 std::string quote_strings(const std::vector<std::string>& strings) {

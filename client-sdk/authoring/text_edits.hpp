@@ -38,6 +38,11 @@ void append_inside(const x3d::Document& document, x3d::NodeId element, const std
 /// Removes an element, with the line end and the blanks before it.
 void remove_element(const x3d::Document& document, x3d::NodeId element, TextEdits& edits);
 
+/// Moves an element to the place after a sibling; none: before the sibling `first`. The comments before it, and those after it on its
+/// line, go with it; the blanks and line ends between siblings stay where they are.
+void move_element(const x3d::Document& document, x3d::NodeId element, x3d::NodeId after, x3d::NodeId first,
+                  TextEdits& edits);
+
 /// The line end and the blanks before an element; empty where it is not the first thing on its line.
 [[nodiscard]] std::string_view margin_of(const x3d::Document& document, x3d::NodeId element);
 /// The margin for something inside an element: that of its last child, or its own and one step more.

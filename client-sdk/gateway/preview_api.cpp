@@ -21,16 +21,16 @@ HttpAnswer looked_at(GatewaySite& site, const std::string& draft) {
 }
 
 void start_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
-  const auto revision = studio::parse_revision(body);
-  if (!revision) return done(fault_answer({revision.error()}));
+  const auto wish = studio::parse_trial(body);
+  if (!wish) return done(fault_answer({wish.error()}));
   if (site.knows_kiosk(PreviewDesk::kiosk_of(draft)))
     return done(refusal(409, "a kiosk of the museum has the name that this draft would be tried under",
                         "give the draft, or the kiosk, another name"));
   if (auto room = site.previews().prepare(draft); !room) return done(refusal(room.error()));
   const auto laid = std::make_shared<std::optional<studio::PreviewDraft>>();
   site.studio().give(
-      [draft, laid, r = *revision](studio::Shelf& shelf) {
-        auto draft_laid = shelf.lay_out(draft, r);
+      [draft, laid, wish = *wish](studio::Shelf& shelf) {
+        auto draft_laid = shelf.lay_out(draft, wish.revision, wish.step);
         if (!draft_laid) return fault_answer(draft_laid.error());
         *laid = std::move(*draft_laid);
         return fresh_answer("{}");

@@ -248,6 +248,7 @@ std::string PreviewDesk::look(const std::string& draft, TimePoint now) {
   Preview& preview = found->second;
   preview.looked = now;
   PreviewJson out{{"revision", preview.draft.revision}, {"pace", preview.pace}};
+  if (!preview.draft.step.empty()) out["begins"] = preview.draft.step;
   if (!preview.process) {
     out["state"] = "failed";
     out["said"] = preview.said;

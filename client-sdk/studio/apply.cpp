@@ -81,6 +81,7 @@ class Applier {
     if (auto there = need_own_set(c.path); !there) return there;
     return editor_.add(c.path, c.after);
   }
+  Expected<void> operator()(const ReorderSet& c) { return editor_.reorder(c.path, c.after); }
   Expected<void> operator()(const RemoveEntry& c) { return editor_.remove(c.path); }
   Expected<void> operator()(const SetField& c) { return editor_.set_attribute(c.node, c.field, c.value); }
   Expected<void> operator()(const RenameEverywhere& c) { return become(renamed(editor_.document(), c)); }

@@ -182,6 +182,7 @@ Command view_of(CommandFields& fields) {
 Command command_of(const std::string& op, CommandFields& fields) {
   if (op == "set") return SetValue{fields.text("path"), fields.value("value")};
   if (op == "add") return AddSet{fields.text("path"), fields.text_or_none("after")};
+  if (op == "reorder") return ReorderSet{fields.text("path"), fields.text_or_none("after")};
   if (op == "remove") return RemoveEntry{fields.text("path")};
   if (op == "field") {
     // An empty value is one: that of an empty list.
@@ -202,7 +203,7 @@ Command command_of(const std::string& op, CommandFields& fields) {
   if (op == "move") return MoveNode{fields.text("node"), fields.pose("pose")};
   if (op == "join") return join_of(fields);
   if (op == "view") return view_of(fields);
-  fields.blame("op", "set, add, remove, field, rename, insert, duplicate, delete, move, join or view");
+  fields.blame("op", "set, add, reorder, remove, field, rename, insert, duplicate, delete, move, join or view");
   return RemoveEntry{};
 }
 
@@ -245,6 +246,15 @@ Expected<Command> parse_command(std::string_view text) {
   return read_command(*json, "");
 }
 
+Expected<TrialWish> parse_trial(std::string_view text) {
+  const auto json = parse_json(text);
+  if (!json) return tl::unexpected(json.error());
+  CommandFields fields(*json, "");
+  TrialWish wish{fields.whole_number("revision"), fields.text_or_none("step")};
+  if (!fields.right()) return fields.fault();
+  return wish;
+}
+
 Expected<std::int64_t> parse_revision(std::string_view text) {
   const auto json = parse_json(text);
   if (!json) return tl::unexpected(json.error());
@@ -267,6 +277,7 @@ std::string title_of(const Command& command) {
   struct Titles {
     std::string operator()(const SetValue& c) const { return "set " + last_of(c.path); }
     std::string operator()(const AddSet& c) const { return "add " + last_of(c.path); }
+    std::string operator()(const ReorderSet& c) const { return "move " + last_of(c.path); }
     std::string operator()(const RemoveEntry& c) const { return "remove " + last_of(c.path); }
     std::string operator()(const SetField& c) const { return fmt::format("set {} of {}", c.field, c.node); }
     std::string operator()(const RenameEverywhere& c) const { return fmt::format("rename {} to {}", c.from, c.to); }

@@ -24,6 +24,11 @@ struct AddSet {
   std::string path;
   std::string after;  ///< a sibling; empty: as the last one
 };
+/// A set of the metadata to another place among its siblings.
+struct ReorderSet {
+  std::string path;
+  std::string after;  ///< a sibling; empty: before the others
+};
 struct RemoveEntry {
   std::string path;
 };
@@ -82,8 +87,8 @@ struct AddView {
   double field_of_view_rad = 0;  ///< 0: X3D's own
   std::string description;       ///< its name in lists; empty: none
 };
-using Command = std::variant<SetValue, AddSet, RemoveEntry, SetField, RenameEverywhere, InsertPart, InsertMesh,
-                             DuplicateBody, DeleteNode, MoveNode, JoinBodies, AddView>;
+using Command = std::variant<SetValue, AddSet, ReorderSet, RemoveEntry, SetField, RenameEverywhere, InsertPart,
+                             InsertMesh, DuplicateBody, DeleteNode, MoveNode, JoinBodies, AddView>;
 
 /// Commands for one revision of a draft: one step.
 struct CommandList {
@@ -98,6 +103,12 @@ inline constexpr std::size_t kMostCommands = 500;
 [[nodiscard]] Expected<CommandList> parse_command_list(std::string_view json);
 /// One command. Errors: the same, with the field.
 [[nodiscard]] Expected<Command> parse_command(std::string_view json);
+/// {"revision": 3, "step": "use/lift"}: what is tried, and from where; no step: from the beginning. Errors: too_large, invalid_value.
+struct TrialWish {
+  std::int64_t revision = 0;
+  std::string step;
+};
+[[nodiscard]] Expected<TrialWish> parse_trial(std::string_view json);
 /// The revision of {"revision": 3}, and {"title": "..."}; `longest` in bytes. Errors: invalid_value.
 [[nodiscard]] Expected<std::int64_t> parse_revision(std::string_view json);
 [[nodiscard]] Expected<std::string> parse_stated(std::string_view json, std::string_view field, std::size_t longest);

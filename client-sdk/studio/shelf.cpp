@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/authoring/editor.hpp"
+#include "client-sdk/studio/begin_at.hpp"
 #include "client-sdk/studio/draft_loader.hpp"
 #include "client-sdk/studio/parts.hpp"
 #include "client-sdk/studio/preview_file.hpp"
@@ -357,20 +358,22 @@ ShelfResult<void> Shelf::check_whole(const std::string& name, const Draft& draft
   return tl::unexpected(std::move(fault));
 }
 
-ShelfResult<PreviewDraft> Shelf::lay_out(const std::string& name, std::int64_t revision) {
+ShelfResult<PreviewDraft> Shelf::lay_out(const std::string& name, std::int64_t revision, const std::string& step) {
   auto opened = open_at(name, revision);
   if (!opened) return tl::unexpected(opened.error());
   if (auto checked = check_whole(name, (*opened)->draft); !checked) return tl::unexpected(checked.error());
   auto compiled = compile(name);
   if (!compiled) return tl::unexpected(compiled.error());
-  const std::string& text = (*opened)->draft.text();
+  Expected<std::string> text = (*opened)->draft.text();
+  if (!step.empty()) text = begin_at(*text, exhibit_file(name), compiled->world, step);
+  if (!text) return shelf_fault(text.error());
   const fs::path folder = exhibit_file(name).parent_path();
-  const auto copied = copy_files(name, text, state_ / name, folder / kPreviewFiles);
+  const auto copied = copy_files(name, *text, state_ / name, folder / kPreviewFiles);
   if (!copied) return shelf_fault(copied.error());
-  auto file = write_preview(folder, with_preview_files(text, *copied));
+  auto file = write_preview(folder, with_preview_files(std::move(*text), *copied));
   if (!file) return shelf_fault(file.error());
   return PreviewDraft{std::make_shared<const state::WorldDescription>(std::move(compiled->world)), std::move(*file),
-                      revision};
+                      revision, step};
 }
 
 ShelfResult<std::string> Shelf::publish(const std::string& name, std::int64_t revision, const Author& author) {

@@ -46,6 +46,7 @@ struct PreviewDraft {
   std::shared_ptr<const state::WorldDescription> world;
   std::filesystem::path file;
   std::int64_t revision = 0;
+  std::string step{};  ///< where it begins: "use/lift"; empty: where the exhibit does
 };
 
 /// Owns the folder `state`; one program at a time. One thread, which may wait for the disk.
@@ -81,7 +82,9 @@ class Shelf {
   [[nodiscard]] ShelfResult<std::string> nodes_of_file(const std::string& name, const std::string& file);
   [[nodiscard]] ShelfResult<CompiledDraft> compile(const std::string& name);
   /// Writes the draft, which has no errors, where its urls mean what they mean in the exhibit; see preview_file.hpp.
-  [[nodiscard]] ShelfResult<PreviewDraft> lay_out(const std::string& name, std::int64_t revision);
+  /// `step`: where it begins, see begin_at.hpp; empty: where the exhibit does.
+  [[nodiscard]] ShelfResult<PreviewDraft> lay_out(const std::string& name, std::int64_t revision,
+                                                  const std::string& step = "");
 
  private:
   struct Open {

@@ -1,9 +1,11 @@
 // What authors' pages and scripts send, and what a damaged disk leaves of a draft's history: it is read within limits, or refused with a
 // remedy; and commands that are read leave a file that can be read.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "client-sdk/authoring/reference_example.hpp"
@@ -20,6 +22,16 @@ void must_hold(bool held) {
   if (!held) std::abort();
 }
 
+/// What is moved is neither changed nor lost.
+void look_at_move(const studio::Command& command) {
+  std::string text = authoring::reference_example();
+  auto moved = studio::apply_commands(text, "fuzz.x3d", {&command, 1});
+  if (!moved) return;
+  std::ranges::sort(text);
+  std::ranges::sort(moved->text);
+  must_hold(moved->text == text);
+}
+
 void look_at(const studio::CommandList& list) {
   must_hold(list.revision >= 0 && !list.commands.empty() && list.commands.size() <= studio::kMostCommands);
   for (const studio::Command& command : list.commands) {
@@ -31,6 +43,8 @@ void look_at(const studio::CommandList& list) {
     if (const auto* view = std::get_if<studio::AddView>(&command))
       must_hold(view->field_of_view_rad >= 0 && view->field_of_view_rad < 3.1416);
   }
+  for (const studio::Command& command : list.commands)
+    if (std::holds_alternative<studio::ReorderSet>(command)) look_at_move(command);
   const auto applied = studio::apply_commands(authoring::reference_example(), "fuzz.x3d", list.commands);
   if (!applied) return must_hold(applied.error().command < list.commands.size());
   x3d::Problems problems("");

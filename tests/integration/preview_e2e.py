@@ -93,9 +93,9 @@ class Preview(WithGateway):
     def gateway(self):
         return super().gateway("--app", self.folder / "app", "--scenarios", self.scenarios)
 
-    def tried(self, page, revision):
+    def tried(self, page, revision, **more):
         """The preview, once it runs."""
-        self.assertEqual(self.posted(page, PREVIEW, {"revision": revision})["state"], "starting")
+        self.assertEqual(self.posted(page, PREVIEW, {"revision": revision, **more})["state"], "starting")
         wait_until(lambda: self.preview(page)["state"] != "starting", 120, "the draft runs")
         preview = self.preview(page)
         self.assertEqual(preview["state"], "running", preview)
@@ -182,6 +182,17 @@ class Preview(WithGateway):
         with self.assertRaises(Refused):
             Browser(Page(page.port), preview["socket"])
         wait_until(lambda: self.reasons(page, "DRUM") == ["off"], 20, "it is told why the crank stands still")
+
+        # From a step: what the steps before it say holds there.
+        later = [{"op": "set", "path": "activities/lift/steps/after/timeoutSeconds", "value": 600},
+                 {"op": "set", "path": "activities/lift/steps/wind/trigger:1/next", "value": "after"}]
+        self.posted(page, f"{DRAFT}/commands", {"revision": 1, "commands": later})
+        self.posted(page, PREVIEW, {"revision": 2, "step": "lift/never"}, 404)
+        self.assertEqual(self.preview(page)["revision"], 1)
+        self.tried(page, 2, step="lift/after")
+        wait_until(lambda: self.preview(page)["step"] == "after", 20, "it is at the step")
+        self.assertEqual(self.preview(page)["begins"], "lift/after")
+        wait_until(lambda: self.reasons(page, "DRUM") == ["off"], 20, "the crank is off, as the step before says")
 
         self.assertEqual(self.posted(page, f"{PREVIEW}/stop", {}), {"state": "none"})
         wait_until(lambda: not servers_of(process) and not self.file.parent.exists(), 20, "nothing is left of it")

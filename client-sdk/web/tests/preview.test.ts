@@ -166,7 +166,7 @@ it('orders are done one after another, and a late answer to an older look change
 it('a draft that somebody else has changed is shown as it is now; who is signed out is asked to sign in', async () => {
   const { desk, draft } = deskOf();
   answer = () => Promise.reject(new ApiError(409, 'the draft was changed meanwhile', 'look at it'));
-  await desk.start(3);
+  await desk.start(3, '');
   await vi.advanceTimersByTimeAsync(0);
   expect(desk.trouble).toBe('the draft was changed meanwhile; look at it');
   expect(draft.state.view?.revision).toBe(5);

@@ -1,11 +1,14 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import { ApiError } from '../src/console/api';
-import { degreesOf, numbersFrom, quaternionFrom, switchCommands, wordsCommand, written } from '../src/studio/commands';
+import { degreesOf, numbersFrom, quaternionFrom, switchCommands, wordsCommand, written, type Command } from '../src/studio/commands';
 import { Draft, type DraftRequests, type DraftState, type Order } from '../src/studio/draft';
 import { filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/files';
 import { agentsOf, ruleText, stepsOf } from '../src/studio/flow';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/joint';
+import { isOrdered, orderCommands } from '../src/studio/order';
 import { found } from '../src/studio/palette';
+import { addAnswer, addQuestion, freeQuestion, isPlainName, isTakenQuestion, questionsOf, removeAnswer, removeQuestion, renameAnswer,
+  setCorrect, setKind, type Question } from '../src/studio/questions';
 import { beyond, keyIn, namesFor, schemaOf, tableAt } from '../src/studio/schema';
 import { missingIn, wordGroups } from '../src/studio/texts';
 import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
@@ -305,4 +308,55 @@ it('a draft that is not there is said, and not asked for again', async () => {
   let state: DraftState | null = null;
   await new Draft(gateway, (next) => (state = next)).open();
   expect(state).toMatchObject({ view: null, refusals: { '': { message: 'there is no draft' } } });
+});
+
+it('a set is moved among its kind, and rules to the next step follow', () => {
+  const go = (name: string) => set('trigger:1', value('next', name));
+  const made = view({ metadata: set('mechane:scenario', set('visits', set('v', value('activity', 'use'), set('move:1'), set('move:2'))),
+    set('activities', set('build'), set('use', value('first', 'a'), set('text'), set('steps', set('a', set('text'), go('b'), set('object:X'),
+      set('trigger:2', value('next', 'd'))), set('b', go('a'), value('timeoutSeconds', 9), value('timeoutNext', 'c')),
+    set('c', go('d')), set('d', set('trigger:1')))))) });
+  const steps = 'activities/use/steps';
+  expect(orderCommands(made, `${steps}/a`, -1, true)).toEqual([]);
+  expect(orderCommands(made, `${steps}/nothing`, 1, true)).toEqual([]);
+  expect(orderCommands(made, `${steps}/d`, -1, false)).toEqual([{ op: 'reorder', path: `${steps}/d`, after: 'b' }]);
+  expect(orderCommands(made, `${steps}/d`, -1, true)).toEqual([{ op: 'reorder', path: `${steps}/d`, after: 'b' },
+    { op: 'set', path: `${steps}/b/timeoutNext`, value: 'd' }, { op: 'set', path: `${steps}/c/trigger:1/next`, value: 'end' },
+    { op: 'set', path: `${steps}/d/trigger:1/next`, value: 'c' }]);
+  expect(orderCommands(made, `${steps}/b`, -1, true)).toEqual([{ op: 'reorder', path: `${steps}/b` },
+    { op: 'set', path: `${steps}/a/trigger:1/next`, value: 'c' }, { op: 'set', path: `${steps}/b/timeoutNext`, value: 'a' },
+    { op: 'set', path: 'activities/use/first', value: 'b' }]);
+  expect(orderCommands(made, `${steps}/a/trigger:2`, -1, true)).toEqual(
+    [{ op: 'reorder', path: `${steps}/a/trigger:2`, after: 'text' }]);
+  expect(orderCommands(made, 'activities/use', -1, true)).toEqual([{ op: 'reorder', path: 'activities/use' }]);
+  expect(orderCommands(made, 'visits/v/move:1', 1, true)).toEqual([{ op: 'reorder', path: 'visits/v/move:1', after: 'move:2' }]);
+  expect(['activities/use', `${steps}/a`, 'visits/v/move:2', 'agents/HOLD', `${steps}/a/text`].map(isOrdered)).toEqual(
+    [true, true, true, false, false]);
+});
+
+it('questions change with all that belongs to them', () => {
+  const made = view({ metadata: set('mechane:scenario', set('activities', set('use', set('steps'), set('questionnaire',
+    set('why', value('kind', 'choice'), value('answers', ['a', 'b', 'c']), value('correct', 'b'),
+      set('text', value('question.en', 'Why?'), value('answer:a.en', 'A'), value('answer:b.el', 'Β'), value('answer:b.en', 'B'))),
+    set('liked', value('kind', 'scale'), value('steps', 7), set('text', value('low.en', 'no'), value('question.en', 'Q'))))))) });
+  const [why, liked] = questionsOf(made, 'use') as [Question, Question];
+  expect(why).toEqual({ name: 'why', path: 'activities/use/questionnaire/why', kind: 'choice', answers: ['a', 'b', 'c'], correct: 'b' });
+  const at = (commands: Command[]) => commands.map((c) => `${c.op} ${'path' in c ? c.path.split('/').slice(3).join('/') : ''}${
+    c.op === 'set' ? ` ${String(c.value)}` : ''}`);
+  expect(at(addQuestion('use', 'q', 'choice'))).toEqual(['set q/kind choice', 'set q/answers answer-1,answer-2', 'add q/text']);
+  expect(at(addQuestion('use', 'q', 'scale'))).toEqual(['set q/kind scale', 'add q/text']);
+  expect(at(setKind(made, why, 'scale'))).toEqual(['set why/kind scale', 'remove why/answers', 'remove why/correct',
+    'remove why/text/answer:a.en', 'remove why/text/answer:b.el', 'remove why/text/answer:b.en']);
+  expect(at(setKind(made, liked, 'choice'))).toEqual(['set liked/kind choice', 'remove liked/steps', 'remove liked/text/low.en',
+    'set liked/answers answer-1,answer-2']);
+  expect(at(removeAnswer(made, why, 'b'))).toEqual(['set why/answers a,c', 'remove why/correct', 'remove why/text/answer:b.el',
+    'remove why/text/answer:b.en']);
+  expect(at(renameAnswer(made, why, 'b', 'x'))).toEqual(['set why/answers a,x,c', 'set why/correct x', 'set why/text/answer:x.el Β',
+    'remove why/text/answer:b.el', 'set why/text/answer:x.en B', 'remove why/text/answer:b.en']);
+  expect(at(addAnswer(why))).toEqual(['set why/answers a,b,c,answer-1']);
+  expect([setCorrect(why, 'b'), at(setCorrect(why, '')), at(setCorrect(liked, 'a'))]).toEqual([[], ['remove why/correct'],
+    ['set liked/correct a']]);
+  expect(removeQuestion(made, why)).toEqual([{ op: 'remove', path: why.path }]);
+  expect([isTakenQuestion(made, 'use', 'why'), freeQuestion(made, 'use')]).toEqual([true, 'question-1']);
+  expect(['a-1', '1a', 'two words', 'ά', ''].map(isPlainName)).toEqual([true, false, false, false, false]);
 });

@@ -44,10 +44,11 @@ class PreviewDeskTest : public testing::Test {
     const auto file = studio::write_preview(folder_.path() / draft, "<X3D/>");
     return {std::make_shared<const state::WorldDescription>(), *file, revision};
   }
-  void start(const std::string& draft, std::int64_t revision = 3) {
+  void start(const std::string& draft, std::int64_t revision = 3, const std::string& step = "") {
     const auto ready = desk_->prepare(draft);
     ASSERT_TRUE(ready) << ready.error().to_string();
-    const studio::PreviewDraft laid = lay(draft, revision);
+    studio::PreviewDraft laid = lay(draft, revision);
+    laid.step = step;
     desk_->start(draft, &laid, now_);
   }
   json look(const std::string& draft) { return json::parse(desk_->look(draft, now_)); }
@@ -121,6 +122,9 @@ TEST_F(PreviewDeskTest, ADraftRunsInADomainOfItsOwnAndTakesOrders) {
   ASSERT_TRUE(desk_->step("mine", 10));
   EXPECT_TRUE(says("pace 0.25\npace 0\nstep 10\n"));
   EXPECT_EQ(look("mine")["pace"], 0);
+  EXPECT_FALSE(look("mine").contains("begins"));
+  start("mine", 4, "use/lift");
+  EXPECT_EQ(look("mine")["begins"], "use/lift");
 }
 
 TEST_F(PreviewDeskTest, WhatDoesNotRunTakesNoOrders) {

@@ -8,6 +8,8 @@
 #include "client-sdk/studio/apply.hpp"
 #include "client-sdk/studio/body_edits.hpp"
 #include "client-sdk/studio/draft_loader.hpp"
+#include "client-sdk/studio/history.hpp"
+#include "server/base/random.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/file_finder.hpp"
 #include "server/x3d/metadata.hpp"
@@ -85,6 +87,107 @@ TEST(Commands, AllOfThemOrNone) {
                                             R"({"op": "set", "path": "effortScal", "value": 0.5})"});
   EXPECT_EQ(refused.command, 1U);
   EXPECT_THAT(refused.error, is_fault(ErrorCode::unknown_name, {"effortScal"}));
+}
+
+TEST(Commands, ASetIsMovedWithItsCommentsAndNothingElse) {
+  const auto of = [](const std::string& steps) {
+    return "<X3D version='4.0'><Scene><WorldInfo><MetadataSet containerField='metadata' name='mechane:scenario'>"
+           "<MetadataSet name='activities'><MetadataSet name='use'>" +
+           steps + "</MetadataSet></MetadataSet></MetadataSet></WorldInfo></Scene></X3D>";
+  };
+  const std::string text =
+      of("<!-- of use -->\n  <MetadataString name='first' value='\"b\"'/>\n  <!-- one -->\n  <!-- a, too -->\n"
+         "    <MetadataSet name='text'><!-- inner --></MetadataSet>   <!-- at its end -->\n\n\n"
+         "  <MetadataSet name='steps'/><!-- of questions --><MetadataSet name='questionnaire'/>\n  <!-- the end -->");
+  EXPECT_EQ(changed(text, {R"({"op": "reorder", "path": "activities/use/text", "after": "questionnaire"})"}),
+            of("<!-- of use -->\n  <MetadataString name='first' value='\"b\"'/>\n  <MetadataSet name='steps'/>\n\n\n"
+               "  <!-- of questions --><MetadataSet name='questionnaire'/><!-- one -->\n  <!-- a, too -->\n"
+               "    <MetadataSet name='text'><!-- inner --></MetadataSet>   <!-- at its end -->\n  <!-- the end -->"));
+  EXPECT_EQ(changed(text, {R"({"op": "reorder", "path": "activities/use/steps"})",
+                           R"({"op": "reorder", "path": "activities/use/steps", "after": "text"})"}),
+            text);
+  EXPECT_EQ(changed(text, {R"({"op": "reorder", "path": "activities/use/text"})"}), text);
+  for (const auto& [path, after] : std::vector<std::pair<std::string, std::string>>{{"activities/use/first", ""},
+                                                                                    {"activities/use/goal", ""},
+                                                                                    {"activities/us/steps", ""},
+                                                                                    {"activities/use/steps", "steps"},
+                                                                                    {"activities/use/steps", "nothing"},
+                                                                                    {"activities/use/steps", "use"}}) {
+    const Command command = ReorderSet{path, after};
+    const auto applied = apply_commands(text, shipped_file(), {&command, 1});
+    ASSERT_FALSE(applied) << path << " after " << after;
+    EXPECT_THAT(applied.error().error, is_fault(ErrorCode::unknown_name)) << path << " after " << after;
+  }
+}
+
+TEST(Commands, AStepThatAnotherUsesStaysBeforeIt) {
+  const std::string text =
+      "<X3D version='4.0'><Scene><WorldInfo><MetadataSet containerField='metadata' name='mechane:scenario'>"
+      "<MetadataSet name='effects'><MetadataSet DEF='S' name='s'/><MetadataSet USE='S'/><MetadataSet name='t'/>"
+      "</MetadataSet></MetadataSet></WorldInfo></Scene></X3D>";
+  EXPECT_THAT(refusal_of(text, {R"({"op": "reorder", "path": "effects/s", "after": "t"})"}).error,
+              is_fault(ErrorCode::unknown_name, {"S"}));
+}
+
+/// The paths of all sets within one, each with the names of the sets around it.
+struct MovableSet {
+  std::string path;
+  std::vector<std::string> siblings;  ///< in the order written, itself among them
+};
+void gather_movable(const x3d::Metadata& set, const std::string& path, std::vector<MovableSet>& out) {
+  std::vector<std::string> names;
+  for (const x3d::Metadata& child : set.children)
+    if (child.kind == x3d::MetadataKind::set) names.push_back(child.name);
+  for (const x3d::Metadata& child : set.children) {
+    if (child.kind != x3d::MetadataKind::set) continue;
+    const std::string below = path.empty() ? child.name : path + "/" + child.name;
+    out.push_back({below, names});
+    gather_movable(child, below, out);
+  }
+}
+std::vector<MovableSet> movable_in(const std::string& text) {
+  x3d::Problems problems("");
+  const auto document = x3d::read_document(text, shipped_file(), problems);
+  std::vector<MovableSet> out;
+  for (const x3d::NodeId info : document->elements("WorldInfo"))
+    if (const auto set = x3d::read_metadata(*document, info, "mechane:scenario", problems))
+      gather_movable(*set, "", out);
+  return out;
+}
+
+TEST(Commands, WhateverIsMovedIsThereAndGoesBackToTheByte) {
+  Random random(7);
+  for (const std::string& name : shipped_exhibits()) {
+    const std::string first = text_of(source_folder() / "scenarios" / name / (name + ".x3d"));
+    History history(first);
+    for (int i = 0; i < 12; ++i) {
+      const std::string text = history.text();
+      const auto movable = movable_in(text);
+      const MovableSet one = movable[random.below(movable.size())];
+      const std::string moved = one.path.substr(one.path.rfind('/') + 1);
+      std::vector<std::string> order = one.siblings;
+      std::erase(order, moved);
+      const std::size_t place = random.below(order.size() + 1);
+      const Command there = ReorderSet{one.path, place == 0 ? "" : order[place - 1]};
+      const auto was = std::ranges::find(one.siblings, moved);
+      const Command back = ReorderSet{one.path, was == one.siblings.begin() ? "" : *(was - 1)};
+      order.insert(order.begin() + static_cast<std::ptrdiff_t>(place), moved);
+      const auto applied = apply_commands(text, shipped_file(), {&there, 1});
+      ASSERT_TRUE(applied) << applied.error().error.to_string();
+      const auto now = movable_in(applied->text);
+      const auto it = std::ranges::find(now, one.path, &MovableSet::path);
+      ASSERT_NE(it, now.end()) << one.path;
+      EXPECT_EQ(it->siblings, order) << one.path;
+      const auto returned = apply_commands(applied->text, shipped_file(), {&back, 1});
+      ASSERT_TRUE(returned);
+      EXPECT_EQ(returned->text, text) << name << ": " << one.path;
+      history.make({Move::Kind::step, {"", "", 0, delta_between(text, applied->text)}}, applied->text);
+    }
+    EXPECT_EQ(errors_in(history.text()), 0U) << name;
+    while (const auto text = history.text_after({Move::Kind::undo, {}}))
+      history.make({Move::Kind::undo, {}}, *text);
+    EXPECT_EQ(history.text(), first) << name;
+  }
 }
 
 TEST(Commands, ABodyGetsItsFirstSet) {
@@ -305,6 +408,10 @@ TEST(Commands, FaultyRequestsNameThePlace) {
     EXPECT_EQ(list.error().where, where) << json;
     EXPECT_FALSE(list.error().remedy.empty()) << json;
   }
+  EXPECT_EQ(parse_trial(R"({"revision": 3, "step": "use/lift"})")->step, "use/lift");
+  EXPECT_EQ(parse_trial(R"({"revision": 3})")->step, "");
+  EXPECT_EQ(parse_trial(R"({"revision": 3, "step": 4})").error().where, "step");
+  EXPECT_EQ(parse_trial(R"({"step": "use/lift"})").error().where, "revision");
   EXPECT_FALSE(parse_command_list(std::string(5000, '[')));
   EXPECT_THAT(parse_command_list(std::string(kMostCommandBytes + 1, ' ')).error(), is_fault(ErrorCode::too_large));
   const auto good =

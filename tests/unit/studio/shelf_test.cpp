@@ -79,6 +79,26 @@ TEST(Shelf, ADraftIsLaidOutWhereItsUrlsMeanWhatTheyMean) {
   EXPECT_TRUE(fs::exists(museum.screw()));
 }
 
+TEST(Shelf, ATrialBeginsAtAStepAndTheDraftStaysAsItIs) {
+  const Museum museum;
+  Shelf shelf = museum.shelf();
+  right(shelf.begin("mine", "template:crank-and-rope", kEleni));
+  const std::string text = *shelf.text("mine");
+  const auto none = shelf.lay_out("mine", 0, "lift/nothing");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().error, is_fault(ErrorCode::unknown_name, {"lift/wind"}));
+  right(shelf.change("mine", command_list(0, R"([{"op": "set", "path": "activities/lift/steps/after/enable",
+    "value": ["HOLD"]}, {"op": "set", "path": "activities/lift/steps/after/timeoutSeconds", "value": 9}])"),
+                     kEleni));
+  const auto laid = shelf.lay_out("mine", 1, "lift/after");
+  ASSERT_TRUE(laid) << laid.error().error.to_string();
+  EXPECT_EQ(laid->step, "lift/after");
+  EXPECT_NE(text_of(laid->file).find("before-after"), std::string::npos);
+  EXPECT_EQ(shelf.text("mine")->find("before-after"), std::string::npos);
+  right(shelf.undo("mine", 1, kEleni));
+  EXPECT_EQ(*shelf.text("mine"), text);
+}
+
 TEST(Shelf, AFolderThatIsThereForATrialAloneGoesWithIt) {
   const Museum museum;
   Shelf shelf = museum.shelf();

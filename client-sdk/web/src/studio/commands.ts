@@ -5,6 +5,7 @@ import { child, metaAt, stringsAt, type Value, type View } from './view';
 export type Command =
   | { op: 'set'; path: string; value: Value }
   | { op: 'add'; path: string; after?: string }
+  | { op: 'reorder'; path: string; after?: string }
   | { op: 'remove'; path: string }
   | { op: 'field'; node: string; field: string; value: string }
   | { op: 'rename'; kind: RenameKind; from: string; to: string }

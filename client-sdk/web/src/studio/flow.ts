@@ -22,7 +22,7 @@ export const activitiesOf = (view: View): string[] => childSets(child(view.metad
 export function agentsOf(view: View): string[] {
   const own = childSets(child(view.metadata, 'agents')).map((a) => a.name);
   const joints = view.joints.map((j) => j.def);
-  const said = activitiesOf(view).flatMap((a) => childSets(metaAt(view, `activities/${a}/steps`)))
+  const said = activitiesOf(view).flatMap((a) => stepsIn(view, a))
     .flatMap((step) => ['enable', 'disable'].flatMap((key) => strings(child(step, key))));
   return [...new Set([...own, ...joints.filter((j) => said.includes(j) || isAgent(view, j)), ...said])];
 }
@@ -33,9 +33,11 @@ function strings(meta: Meta | undefined): string[] {
   return (Array.isArray(meta.value) ? meta.value : [meta.value]).map(String).filter((s) => s !== '');
 }
 
+export const stepsIn = (view: View, activity: string): MetaSet[] => childSets(metaAt(view, `activities/${activity}/steps`));
+
 export function stepsOf(view: View, activity: string): StepRow[] {
   const base = `activities/${activity}`;
-  const steps = childSets(metaAt(view, `${base}/steps`));
+  const steps = stepsIn(view, activity);
   const first = stringAt(view, `${base}/first`) || steps[0]?.name;
   const on = new Set<string>();
   const agents = agentsOf(view);

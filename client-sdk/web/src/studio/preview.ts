@@ -20,6 +20,8 @@ export interface Preview {
   state: PreviewState;
   /** Of the draft, as it was when this began. */
   revision: number;
+  /** The step that it began at, "use/lift"; "": where the exhibit begins. */
+  begins: string;
   /** World time by real time: 0 is paused, 1 is real time. */
   pace: number;
   /** The kiosk's page, and its socket. */
@@ -47,6 +49,7 @@ export function previewOf(v: unknown): Preview {
   return {
     state: kStates.includes(text(p.state)) ? (p.state as PreviewState) : 'none',
     revision: number(p.revision),
+    begins: text(p.begins),
     pace: typeof p.pace === 'number' ? number(p.pace) : 1,
     address: text(p.address),
     socket: text(p.socket),

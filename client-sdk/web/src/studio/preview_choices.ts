@@ -1,4 +1,5 @@
 // What can be done with a preview: for its buttons, the palette and the keys.
+import { activitiesOf, stepsIn } from './flow';
 import type { Choice } from './palette';
 import type { PreviewDesk } from './preview_desk.svelte';
 import type { Workspace } from './workspace.svelte';
@@ -14,10 +15,17 @@ export const canStart = (ws: Workspace): boolean => ws.state.waiting === 0 && !h
 /** The draft is another than the one that runs. */
 export const isStale = (ws: Workspace): boolean => ws.preview.isOn && ws.preview.now!.revision !== ws.view.revision;
 
-export function startPreview(ws: Workspace): void {
+/** The steps that it can begin at, "use/lift". */
+export const startsOf = (ws: Workspace): string[] =>
+  activitiesOf(ws.view).flatMap((activity) => stepsIn(ws.view, activity).map((step) => `${activity}/${step.name}`));
+/** Where it begins when it is started; one that is not there any more is none. */
+export const startOf = (ws: Workspace): string => (startsOf(ws).includes(ws.preview.from) ? ws.preview.from : '');
+
+export function startPreview(ws: Workspace, from = startOf(ws)): void {
+  ws.preview.from = from;
   ws.part = 'try';
   ws.preview.begin();
-  if (canStart(ws)) void ws.preview.start(ws.view.revision);
+  if (canStart(ws)) void ws.preview.start(ws.view.revision, from);
 }
 export function previewChoices(ws: Workspace): Choice[] {
   const { preview: desk, words: { preview: words } } = ws;

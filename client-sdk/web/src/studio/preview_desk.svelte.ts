@@ -29,6 +29,8 @@ export class PreviewDesk {
   quantities = $state.raw<Quantity[]>([]);
   /** By quantity, where the author has chosen; the others are plotted where a step waits for them. */
   chosen = $state<Record<string, boolean>>({});
+  /** The step that the next one begins at, "use/lift"; "": where the exhibit does. */
+  from = $state('');
   /** Seconds of world time in the plots; 0: all. */
   window_s = $state(30);
   /** Grows when the series has something new to draw. */
@@ -74,8 +76,8 @@ export class PreviewDesk {
     this.sleep();
   }
   /** Starts it, or starts it anew, with the draft as it is stored. */
-  start(revision: number): Promise<void> {
-    return this.order(() => this.requests.startPreview(this.name, revision));
+  start(revision: number, step: string): Promise<void> {
+    return this.order(() => this.requests.startPreview(this.name, revision, step));
   }
   stop(): Promise<void> {
     return this.order(() => this.requests.stopPreview(this.name));

@@ -18,8 +18,9 @@ export const studio = (api: Api) => ({
   publish: (name: string, revision: number): Promise<unknown> => api.json('POST', at(name, '/publish'), { revision }),
   discard: (name: string, revision: number): Promise<unknown> => api.json('POST', at(name, '/discard'), { revision }),
   preview: async (name: string): Promise<Preview> => previewOf(await api.json('GET', at(name, '/preview'))),
-  startPreview: async (name: string, revision: number): Promise<Preview> =>
-    previewOf(await api.json('POST', at(name, '/preview'), { revision })),
+  /** `step`: where it begins, "use/lift"; "": where the exhibit does. */
+  startPreview: async (name: string, revision: number, step: string): Promise<Preview> =>
+    previewOf(await api.json('POST', at(name, '/preview'), { revision, ...(step && { step }) })),
   pacePreview: async (name: string, pacing: Pacing): Promise<Preview> =>
     previewOf(await api.json('POST', at(name, '/preview/pace'), pacing)),
   stopPreview: async (name: string): Promise<Preview> => previewOf(await api.json('POST', at(name, '/preview/stop'), {})),

@@ -1,8 +1,10 @@
 // What the parts of the studio share: the draft, what is selected, what is typed and not yet taken.
+import { tick } from 'svelte';
 import type { Api } from '../console/api';
 import type { Edit, Vector } from './commands';
 import { Draft, type DraftState, type Outcome } from './draft';
 import type { JointPlan } from './joint';
+import { orderCommands, siblingsOf } from './order';
 import { PreviewDesk } from './preview_desk.svelte';
 import { draftRequests, studio } from './requests';
 import type { Schema } from './schema';
@@ -35,6 +37,11 @@ export class Workspace {
   wanted = $state('');
   /** The joint in the making. */
   joint = $state<JointPlan | null>(null);
+  /** Rules that lead from a step to the one after it do so in a new order, too. */
+  rulesFollow = $state(true);
+  /** For who does not see it: where what was moved is now. */
+  placed = $state('');
+  private moving = false;
   /** The middle of a thing, in W; the picture knows it better. */
   middleOf = (def: string): Vector | null => (outlineAt(this.view, def)?.pose?.slice(0, 3) as Vector | undefined) ?? null;
   tree = $derived(this.state.view ? treeOf(this.state.view) : []);
@@ -58,6 +65,22 @@ export class Workspace {
   }
   async edit(id: string, what: string, commands: Edit['commands']): Promise<Outcome> {
     return this.draft.edit({ id, what, commands });
+  }
+  /** Moves a set up (-1) or down (1) among those that it stands with. */
+  reorder(path: string, by: -1 | 1): Promise<void> {
+    const commands = orderCommands(this.view, path, by, this.rulesFollow);
+    return this.place(path.split('/').at(-1)!, commands, () => siblingsOf(this.view, path));
+  }
+  /** Puts something elsewhere, and says where it is among `all` then. What has the focus keeps it. */
+  async place(name: string, commands: Edit['commands'], all: () => string[]): Promise<void> {
+    if (this.moving || commands.length === 0) return;
+    this.moving = true;
+    const focused = document.activeElement;
+    const outcome = await this.edit('', this.words.edits.move(name), commands);
+    await tick();
+    this.moving = false;
+    if (focused instanceof HTMLElement && focused.isConnected) focused.focus();
+    if (outcome === 'done') this.placed = this.words.order.placed(name, all().indexOf(name) + 1, all().length);
   }
   /** What was typed in a field is in the draft, or is given up. */
   forget(id: string): void {

@@ -122,6 +122,67 @@ const parts = {
     assert.ok(await page.isVisible('text=height > 0.965 → guide'));
     await accessible('flow');
   },
+  async 'a step is moved by key and by button, its rules lead on in the new order, and the focus stays'() {
+    const steps = () => page.locator('tbody th button').allTextContents();
+    await page.focus('tbody button:text-is("2. lift")');
+    await page.keyboard.press('Alt+ArrowUp');
+    await page.waitForSelector('tbody button:text-is("1. lift"):focus');
+    const of = (step, key) => `activities/use/steps/${step}/${key}`;
+    assert.deepEqual(sent(), [{ op: 'reorder', path: of('lift', '').slice(0, -1) },
+      { op: 'set', path: of('grasp', 'trigger:1/next'), value: 'guide' }, { op: 'set', path: of('lift', 'trigger:1/next'), value: 'grasp' }]);
+    await page.waitForSelector('[role=status]:text-is("lift: 1 of 3")', { state: 'attached' });
+    await page.keyboard.press('Alt+ArrowUp');
+    await page.click('ol [aria-label="Move lift down"]');
+    await page.waitForSelector('ol li:nth-child(2) [aria-label="Move lift down"]:focus');
+    assert.deepEqual(await steps(), ['1. grasp', '2. lift', '3. guide']);
+    assert.ok(await page.isVisible('text=held > 0.5 for 0.2 s → lift'));
+    await accessible('order');
+  },
+  async 'questions are made, their answers ordered and named, and what is missing is seen'() {
+    const of = (key) => `activities/use/questionnaire/why${key}`;
+    const add = async (kind, name) => {
+      await page.fill('.questions form input', name);
+      await page.selectOption('.questions form select', kind);
+      await page.click('button:text-is("Add a question")');
+    };
+    await add('choice', 'why');
+    const words = (key) => page.locator(`[data-field="${of(`/text/${key}`)}"]`);
+    await page.waitForSelector(`[data-field="${of('/text/question.el')}"]:focus`);
+    assert.deepEqual(sent().map((c) => [c.op, c.path]), [['set', of('/kind')], ['set', of('/answers')], ['add', of('/text')]]);
+    await page.waitForSelector('nav b[title="6 texts are missing"]');
+    await words('question.el').fill('Γιατί;');
+    await words('answer:answer-1.en').fill('The drum is thick');
+    await words('question.en').focus();
+    await page.waitForSelector('nav b[title="4 texts are missing"]');
+    const name = page.getByLabel('Name of the answer answer-1 in the records');
+    await name.fill('two words');
+    await name.press('Enter');
+    await page.waitForSelector('.answer [role=alert]');
+    await name.fill('drum');
+    await name.press('Enter');
+    await page.click('.answer:has([aria-label="Name of the answer drum in the records"]) >> text=right answer');
+    await page.click('button:text-is("Add an answer")');
+    await page.getByLabel('Name of the answer answer-1 in the records').press('Alt+ArrowUp');
+    await page.waitForSelector('[role=status]:text-is("answer-1: 2 of 3")', { state: 'attached' });
+    assert.ok(await page.isVisible('[aria-label="Name of the answer answer-1 in the records"]:focus'));
+    const question = () => Object.fromEntries(gateway.question('why').children.map((c) => [c.name, c.value ?? c.children]));
+    assert.deepEqual([question().answers, question().correct], [['drum', 'answer-1', 'answer-2'], 'drum']);
+    assert.deepEqual(question().text.map((c) => c.name).sort(), ['answer:drum.en', 'question.el']);
+    await add('scale', 'liked');
+    await page.waitForSelector('.question:nth-of-type(2)');
+    await page.click('.questions [aria-label="Move liked up"]');
+    await page.waitForSelector('.question:has-text("1. liked")');
+    await accessible('questions');
+    await page.locator('.answer').first().scrollIntoViewIfNeeded();
+    await page.click('button:text-is("Hide")');
+    await accessible('answers', 'dark');
+    await page.selectOption('.question:has-text("2. why") select', 'scale');
+    await page.waitForSelector('.answer', { state: 'detached' });
+    assert.deepEqual([question().kind, question().answers, question().text.length], ['scale', undefined, 1]);
+    for (const gone of ['why', 'liked']) await page.click(`[aria-label="Remove ${gone}"]`);
+    await page.waitForSelector('text=Visitors are asked nothing after this activity.');
+    assert.equal(gateway.question('why'), undefined);
+  },
   async 'all is done by keys: the contents, the view, the palette'() {
     await page.keyboard.press('Control+k');
     await page.keyboard.type('scene');
@@ -226,8 +287,10 @@ const parts = {
       style.replaceSync('iframe { display: none !important; }');
       document.adoptedStyleSheets = [style];
     });
-    await page.focus('.bar button:text-is("Commands")');
-    await page.keyboard.press('Control+Enter');
+    await go('Flow');
+    await page.click('[aria-label="Try it from lift"]');
+    await page.waitForSelector('.notice:has-text("It began at use / lift")');
+    assert.deepEqual(gateway.asked.at(-1).body, { revision: gateway.revision, step: 'use/lift' });
     const kiosk = page.frameLocator('iframe[title="The exhibit as a visitor finds it"]');
     await kiosk.locator('text=Turn the crank').first().waitFor({ state: 'attached' });
     // It stays while another part is shown.
@@ -262,8 +325,11 @@ const parts = {
     // A field beside it, then a start anew with what was changed.
     await page.click('.still li:has-text("FRAME") button:text-is("Go to the field")');
     await type('FRAME/mechane:haptic/stiffness', '700');
-    await page.click('.notice button:text-is("Start anew")');
+    await page.selectOption('.controls .from select', '');
+    await page.focus('.notice button:text-is("Start anew")');
+    await page.keyboard.press('Control+Enter');
     await page.waitForSelector('.notice', { state: 'detached' });
+    assert.deepEqual(gateway.asked.findLast((one) => one.path.endsWith('/preview')).body, { revision: gateway.revision });
     await page.click('.inspector button:text-is("Watch")');
     await page.waitForSelector('.time:has-text("step lift")');
     await accessible('preview', 'dark');

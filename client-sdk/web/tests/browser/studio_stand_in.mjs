@@ -18,7 +18,8 @@ const kSchema = {
       number('effortScale', { least: 1e-4, most: 1, default: 1, doc: 'share of a machine’s loads that the hand feels' })],
     sets: [text, { name: 'quantities', keys: [], sets: [{ name: '*', keys: [key('source', 'string'), key('unit', 'string')], sets: [] }] },
       { name: 'activities', keys: [], sets: [{ name: '*', doc: 'a task for a visitor', keys: [key('first', 'string', { names: 'step' })],
-        sets: [text,
+        sets: [text, { name: 'questionnaire', keys: [], sets: [{ name: '*', keys: [key('kind', 'string'), key('answers', 'strings'),
+          key('correct', 'string'), number('steps', { least: 2, most: 11, default: 5 })], sets: [text] }] },
         { name: 'steps', keys: [], sets: [{ name: '*', doc: 'one thing to do', keys: [
           key('enable', 'strings', { names: 'agent' }), key('disable', 'strings', { names: 'agent' }),
           number('hintSeconds', { unit: 's', least: 0, most: 3600, default: 20, doc: 'when the hint is shown' }),
@@ -93,8 +94,9 @@ class Trial {
   at = performance.now();
   liftedAt = Infinity;
 
-  constructor(revision, wanted, stepped) {
-    Object.assign(this, { revision, wanted, stepped, looks: 0 });
+  constructor(revision, begins, wanted, stepped) {
+    Object.assign(this, { revision, begins, wanted, stepped, looks: 0 });
+    if (begins) this.step = begins.split('/')[1];
   }
   get height() {
     return Math.min(0.186 + Math.max(this.tick - this.liftedAt, 0) / 1000, 1.2);
@@ -127,7 +129,7 @@ class Trial {
       remedy: { el: 'Κάντε το κινητό.', en: 'Make it movable.' }, path: 'FRAME/mechane:haptic/stiffness' };
     const off = { kind: 'off', text: { el: 'Η δράση GUIDE είναι κλειστή σε αυτό το βήμα.', en: 'GUIDE is off in this step.' },
       path: 'activities/use/steps/lift/trigger:1/value' };
-    return { state: 'running', revision: this.revision, pace: this.pace, kiosk: 'studio-my-crane', activity: 'use', step: this.step,
+    return { state: 'running', revision: this.revision, begins: this.begins, pace: this.pace, kiosk: 'studio-my-crane', activity: 'use', step: this.step,
       address: '/kiosk/studio-my-crane?token=t', socket: '/ws/kiosk/studio-my-crane?token=t', time_s: this.tick / 1000,
       still: [{ def: 'FRAME', reasons: [fixed] }, ...(this.step === 'lift' ? [{ def: 'LOAD', reasons: [off] }] : [])] };
   }
@@ -157,6 +159,9 @@ export class StudioStandIn extends StandIn {
     Object.assign(this, { revision: 3, by: 'eleni', undone: [], done: [] });
     this.trial = null;
   }
+  question(name) {
+    return find(this.draft.metadata, `activities/use/questionnaire/${name}`);
+  }
   moment(sequence) {
     return this.trial ? this.trial.moment() : super.moment(sequence);
   }
@@ -169,8 +174,8 @@ export class StudioStandIn extends StandIn {
   preview(verb, body) {
     if (verb === '' && body.revision === this.revision) {
       const wanted = find(this.draft.metadata, 'activities/use/steps/lift/trigger:1/value').value;
-      this.trial = new Trial(this.revision, wanted, () => this.begin('guide'));
-      this.begin('lift');
+      this.trial = new Trial(this.revision, body.step, wanted, () => this.begin('guide'));
+      this.begin(this.trial.step);
     } else if (verb === '' && 'revision' in body) {
       return [409, { error: 'the draft was changed meanwhile', remedy: 'look at it, and start it again', revision: this.revision }];
     } else if (verb === '/pace') {
@@ -227,6 +232,13 @@ export class StudioStandIn extends StandIn {
       case 'add':
         around(root, path).children.push(set(name));
         return [];
+      case 'reorder': {
+        const { children } = around(root, path);
+        const [moved] = children.splice(children.findIndex((c) => c.name === name), 1);
+        children.splice(children.findIndex((c) => (command.after ? c.name === command.after : c.kind === 'set')) + (command.after ? 1 : 0),
+          0, moved);
+        return [];
+      }
       case 'remove': {
         const parent = around(root, path);
         parent.children = parent.children.filter((c) => c.name !== name);
