@@ -8,9 +8,9 @@
 
 #include "client-sdk/authoring/editor.hpp"
 #include "client-sdk/authoring/key_scope.hpp"
+#include "client-sdk/authoring/paths.hpp"
 #include "client-sdk/authoring/rename.hpp"
 #include "server/scenario/checker.hpp"
-#include "server/scenario/file_references.hpp"
 #include "server/x3d/metadata.hpp"
 #include "server/x3d/values.hpp"
 
@@ -29,25 +29,6 @@ fs::path folder_of(const fs::path& file) {
   std::error_code code;
   const fs::path whole = fs::absolute(file, code);
   return (code ? file : whole).lexically_normal().parent_path();
-}
-
-std::string rebased(const std::string& url, const fs::path& from, const fs::path& to) {
-  if (!x3d::is_relative_path(url)) return url;
-  // "model.glb#NODE" keeps what follows the '#'.
-  const std::size_t hash = std::min(url.find('#'), url.size());
-  const fs::path target = (from / url.substr(0, hash)).lexically_normal();
-  return target.lexically_relative(to).generic_string() + url.substr(hash);
-}
-
-/// Makes the paths of a file relative to the folder `to`, which is absolute.
-void rebase_paths(const x3d::Document& document, const fs::path& to, TextEdits& edits) {
-  const fs::path from = folder_of(document.path());
-  if (from == to) return;
-  for (scenario::FileReference& reference : scenario::file_references(document)) {
-    for (std::string& one : reference.urls)
-      one = rebased(one, from, to);
-    set_attribute(document, reference.node, reference.attribute, quote_strings(reference.urls), edits);
-  }
 }
 
 /// The set mechane:scenario; none where the file has none.
@@ -102,7 +83,7 @@ std::string value_of(const x3d::Document& document, x3d::NodeId set, std::string
 /// Adds one document to another. Both have their final paths, and no name in common.
 class Merge {
  public:
-  Merge(const x3d::Document& ours, const x3d::Document& theirs, std::vector<std::string>& notes)
+  Merge(const x3d::Document& ours, const x3d::Document& theirs, std::vector<MergeNote>& notes)
       : ours_(ours), theirs_(theirs), notes_(notes) {}
 
   Expected<std::string> run() {
@@ -188,11 +169,8 @@ class Merge {
     merge_languages(tree, other);
     const std::string scale = value_of(ours_, tree, "effortScale");
     const std::string their_scale = value_of(theirs_, other, "effortScale");
-    if (scale != their_scale) {
-      notes_.push_back(
-          fmt::format("effortScale: '{}' of the first file is kept, '{}' of {} is not: a scenario has one effort scale",
-                      scale, their_scale, theirs_.path().string()));
-    }
+    if (scale != their_scale)
+      notes_.push_back({MergeNote::Kind::not_kept, "effortScale", theirs_.path().string(), their_scale, scale});
     remove_element(theirs_, other, taken_);
   }
 
@@ -213,11 +191,15 @@ class Merge {
     if (!collection || !other || is_referred_to(other)) return;
     const auto gravity = [](const x3d::Document& document, x3d::NodeId id) {
       const std::string* text = document[id].attribute("gravity");
-      const auto numbers = x3d::parse_numbers(text != nullptr ? *text : "0 -9.8 0");
-      return numbers ? *numbers : std::vector<double>();
+      return text != nullptr ? *text : "0 -9.8 0";
     };
-    if (gravity(ours_, collection) != gravity(theirs_, other))
-      notes_.push_back(fmt::format("gravity: the first file's is kept, that of {} is not", theirs_.path().string()));
+    const auto numbers = [](const std::string& text) {
+      const auto read = x3d::parse_numbers(text);
+      return read ? *read : std::vector<double>();
+    };
+    const std::string our_gravity = gravity(ours_, collection), their_gravity = gravity(theirs_, other);
+    if (numbers(our_gravity) != numbers(their_gravity))
+      notes_.push_back({MergeNote::Kind::not_kept, "gravity", theirs_.path().string(), their_gravity, our_gravity});
     // X3D wants bodies before joints. Text before an element, such as a comment, moves with it.
     std::string bodies;
     std::string rest;
@@ -256,24 +238,24 @@ class Merge {
 
   const x3d::Document& ours_;
   const x3d::Document& theirs_;
-  std::vector<std::string>& notes_;
+  std::vector<MergeNote>& notes_;
   TextEdits edits_;
   TextEdits taken_;
 };
 
-void note_renames(const Renames& renames, const std::string& file, std::vector<std::string>& notes) {
-  const auto note = [&](std::string_view what, const std::map<std::string, std::string>& map) {
+void note_renames(const Renames& renames, const std::string& file, std::vector<MergeNote>& notes) {
+  const auto note = [&](const char* what, const std::map<std::string, std::string>& map) {
     for (const auto& [from, to] : map)
-      notes.push_back(fmt::format("{} {} of {} is now {}", what, from, file, to));
+      notes.push_back({MergeNote::Kind::renamed, what, file, from, to});
   };
-  note("the name", renames.things);
-  note("the prototype", renames.prototypes);
-  note("the export", renames.exports);
-  note("the quantity", renames.quantities);
-  note("the activity", renames.activities);
-  note("the step", renames.steps);
-  note("the visit", renames.visits);
-  note("the effect", renames.effects);
+  note("name", renames.things);
+  note("prototype", renames.prototypes);
+  note("export", renames.exports);
+  note("quantity", renames.quantities);
+  note("activity", renames.activities);
+  note("step", renames.steps);
+  note("visit", renames.visits);
+  note("effect", renames.effects);
 }
 
 /// Reads a file, with its paths made relative to the folder of the result.
@@ -281,18 +263,12 @@ Expected<x3d::Document> read_rebased(const std::string& file, const fs::path& to
   x3d::Problems problems(file);
   auto document = x3d::read_document(fs::path(file), problems);
   if (!document) return document;
+  const fs::path from = folder_of(document->path());
   TextEdits edits;
-  rebase_paths(*document, to, edits);
+  if (from != to)
+    replace_paths(
+        *document, [&](const std::string& path) { return rebased_path(path, from, to); }, edits);
   return edits.empty() ? std::move(document) : read_text(edits.apply(document->source()), file);
-}
-
-Expected<x3d::Document> renamed(const x3d::Document& ours, const x3d::Document& theirs, const std::string& file,
-                                std::vector<std::string>& notes) {
-  const Renames renames = renames_for(names_of_file(ours), names_of_file(theirs));
-  note_renames(renames, file, notes);
-  TextEdits edits;
-  rename_in(theirs, renames, edits);
-  return read_text(edits.apply(theirs.source()), file);
 }
 
 /// Takes the new file's name as the id, where it can be one.
@@ -309,6 +285,25 @@ std::string with_id(const x3d::Document& document, const fs::path& out) {
 
 }  // namespace
 
+std::string to_string(const MergeNote& note) {
+  if (note.kind == MergeNote::Kind::renamed)
+    return fmt::format("the {} {} of {} is now {}", note.what, note.theirs, note.file, note.ours);
+  return fmt::format("{}: '{}' of the first file is kept, '{}' of {} is not: a scenario has one {}", note.what,
+                     note.ours, note.theirs, note.file, note.what);
+}
+
+Expected<std::string> merge_documents(const x3d::Document& ours, const x3d::Document& theirs,
+                                      std::vector<MergeNote>& notes) {
+  const Renames renames = renames_for(names_of_file(ours), names_of_file(theirs));
+  const std::string file = theirs.path().string();
+  note_renames(renames, file, notes);
+  TextEdits edits;
+  rename_in(theirs, renames, edits);
+  const auto apart = read_text(edits.apply(theirs.source()), file);
+  if (!apart) return tl::unexpected(apart.error());
+  return Merge(ours, *apart, notes).run();
+}
+
 Expected<Merged> merge_files(std::span<const std::string> files, const fs::path& out) {
   if (files.size() < 2)
     return fail(ErrorCode::missing, "fewer than two files are given", "", "name two files or more to merge");
@@ -317,11 +312,9 @@ Expected<Merged> merge_files(std::span<const std::string> files, const fs::path&
   auto ours = read_rebased(files.front(), folder);
   if (!ours) return tl::unexpected(ours.error());
   for (const std::string& file : files.subspan(1)) {
-    auto theirs = read_rebased(file, folder);
+    const auto theirs = read_rebased(file, folder);
     if (!theirs) return tl::unexpected(theirs.error());
-    auto apart = renamed(*ours, *theirs, file, merged.notes);
-    if (!apart) return tl::unexpected(apart.error());
-    const auto both = Merge(*ours, *apart, merged.notes).run();
+    const auto both = merge_documents(*ours, *theirs, merged.notes);
     if (!both) return tl::unexpected(both.error());
     ours = read_text(*both, out);
     if (!ours) return tl::unexpected(ours.error());
@@ -340,8 +333,8 @@ int run_merge(std::span<const std::string> files, const std::string& out_file, s
     out << "mechane merge: " << written.error().to_string() << "\n";
     return 2;
   }
-  for (const std::string& note : merged->notes)
-    out << note << "\n";
+  for (const MergeNote& note : merged->notes)
+    out << to_string(note) << "\n";
   const std::vector<std::string> names{out_file};
   return scenario::run_check(names, out);
 }

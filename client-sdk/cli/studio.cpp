@@ -9,6 +9,8 @@
 
 #include "client-sdk/authoring/editor.hpp"
 #include "client-sdk/studio/apply.hpp"
+#include "client-sdk/studio/bundle.hpp"
+#include "client-sdk/studio/draft_files.hpp"
 #include "client-sdk/studio/history.hpp"
 #include "client-sdk/studio/schema_json.hpp"
 #include "client-sdk/studio/shelf.hpp"
@@ -20,6 +22,7 @@ namespace mechane::cli {
 namespace {
 
 using StudioJson = nlohmann::json;
+namespace fs = std::filesystem;
 using studio::Move;
 
 std::string studio_line(const StudioJson& json) {
@@ -88,11 +91,35 @@ class ScriptedFile {
         return tl::unexpected(written.error());
       return done({{"saved", file_}});
     }
+    if (verb == "export") return exported();
     if (verb == "text") return done({{"text", history_.text()}});
     if (verb == "schema") return studio::schema_json();
     if (verb == "view" || verb == "check") return look(verb == "view");
     return fail(ErrorCode::unknown_name, "this request is not known: " + verb.substr(0, 20), "do",
-                "write undo, redo, view, check, text, schema or save");
+                "write undo, redo, view, check, text, schema, save or export");
+  }
+
+  /// FILE.zip beside the file, with the meshes and sounds that it names.
+  Expected<std::string> exported() {
+    const fs::path file = file_, folder = file.parent_path();
+    const std::string name = file.stem().string();
+    if (!studio::is_exhibit_name(name))
+      return fail(ErrorCode::invalid_value, "an exhibit cannot have this file's name", file_,
+                  "rename it to 1 to 31 of the letters a-z, digits and '-'");
+    x3d::Problems problems(file_);
+    const auto document = x3d::read_document(history_.text(), file_, problems);
+    if (!document) return tl::unexpected(document.error());
+    const studio::Bundle whole = studio::bundle(*document, {[&](const std::string& path) {
+      std::error_code unknown;
+      const fs::path named = (folder / path).lexically_normal();
+      const bool other = !fs::equivalent(named, file, unknown);
+      return other && fs::is_regular_file(named, unknown) ? named : fs::path();
+    }});
+    const auto bytes = studio::write_archive(name, whole.text, whole.files);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const fs::path archive = folder / (name + ".zip");
+    if (auto written = authoring::write_file(archive, *bytes); !written) return tl::unexpected(written.error());
+    return done({{"exported", archive.string()}});
   }
 
   Expected<std::string> look(bool at_all) {

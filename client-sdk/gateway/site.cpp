@@ -10,7 +10,6 @@
 #include "client-sdk/gateway/secrets.hpp"
 #include "client-sdk/gateway/security_headers.hpp"
 #include "client-sdk/gateway/studio_api.hpp"
-#include "client-sdk/studio/draft_files.hpp"
 #include "client-sdk/studio/preview_file.hpp"
 #include "server/base/program_folder.hpp"
 #include "server/log/log.hpp"
@@ -107,9 +106,9 @@ void GatewaySite::answer(HttpRequest request, Done done) {
 }
 
 std::size_t GatewaySite::longest_body(const HttpRequest& header) {
-  if (header.method != Method::post || !is_studio_upload(header.path)) return 0;
-  const Session* session = session_of(header);
-  return session != nullptr && session->role != Role::visitor ? studio::DraftFiles::kMostBytes : 0;
+  const std::size_t longest = header.method == Method::post ? longest_studio_upload(header.path) : 0;
+  const Session* session = longest > 0 ? session_of(header) : nullptr;
+  return session != nullptr && session->role != Role::visitor ? longest : 0;
 }
 
 void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
@@ -201,7 +200,7 @@ void GatewaySite::serve_exhibit(const HttpRequest& request, const std::string& r
 void GatewaySite::answer_post(const HttpRequest& request, const Done& done) {
   if (!is_own_origin(request.header("origin"), request.header("host"), request.secure))
     return done(refusal(403, "this request comes from another page", "use the gateway's own pages"));
-  const bool upload = is_studio_upload(request.path);
+  const bool upload = longest_studio_upload(request.path) > 0;
   if (!request.header("content-type").starts_with(upload ? "application/octet-stream" : "application/json"))
     return done(upload ? refusal(415, "this request is not a file's bytes", "send application/octet-stream")
                        : refusal(415, "this request is not JSON", "send application/json"));

@@ -7,6 +7,7 @@
 
 #include "client-sdk/gateway/preview_api.hpp"
 #include "client-sdk/gateway/studio_scene.hpp"
+#include "client-sdk/studio/archive.hpp"
 #include "client-sdk/studio/schema_json.hpp"
 
 namespace mechane::gateway {
@@ -18,6 +19,8 @@ using studio::Shelf;
 constexpr std::string_view kStudio = "/api/studio/";
 constexpr std::string_view kDrafts = "/api/studio/drafts/";
 constexpr std::string_view kFiles = "files/";
+constexpr std::string_view kDelete = "/delete";
+constexpr std::string_view kImport = "import";
 constexpr std::size_t kLongestDraftName = 64;
 
 /// An address below a draft: "odometer", "versions/3/restore".
@@ -45,6 +48,12 @@ std::optional<std::int64_t> restored_version(std::string_view verb) {
   return number;
 }
 
+/// Of "files/arm.glb/delete"; empty: it is another one.
+std::string deleted_file(const std::string& verb) {
+  if (!verb.starts_with(kFiles) || !verb.ends_with(kDelete) || verb.size() < kFiles.size() + kDelete.size()) return {};
+  return verb.substr(kFiles.size(), verb.size() - kFiles.size() - kDelete.size());
+}
+
 unsigned status_of(const studio::ShelfFault& fault) {
   if (fault.stale) return 409;
   if (fault.command || !fault.problems.empty()) return 422;
@@ -55,11 +64,20 @@ HttpAnswer answer_of(const studio::ShelfResult<std::string>& result) {
   return result ? fresh_answer(*result) : fault_answer(result.error());
 }
 
-HttpAnswer text_answer(const std::string& name, const studio::ShelfResult<std::string>& text) {
-  if (!text) return fault_answer(text.error());
-  HttpAnswer answer = fresh_answer(*text, "model/x3d+xml; charset=utf-8");
-  answer.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + name + ".x3d\"");
+/// Bytes that a browser keeps as a file.
+HttpAnswer file_answer(const std::string& file, const char* type, studio::ShelfResult<std::string> bytes) {
+  if (!bytes) return fault_answer(bytes.error());
+  HttpAnswer answer = fresh_answer(std::move(*bytes), type);
+  answer.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + file + "\"");
   return answer;
+}
+
+HttpAnswer text_answer(const std::string& name, studio::ShelfResult<std::string> text) {
+  return file_answer(name + ".x3d", "model/x3d+xml; charset=utf-8", std::move(text));
+}
+
+HttpAnswer archive_answer(const std::string& name, studio::ShelfResult<std::string> archive) {
+  return file_answer(name + ".zip", "application/zip", std::move(archive));
 }
 
 Author author_of(const Session& session) {
@@ -97,9 +115,11 @@ Expected<StudioDesk::Work> work_of(const DraftPath& path, const std::string& bod
     if (!list) return tl::unexpected(list.error());
     return [=, list = std::move(*list)](Shelf& shelf) { return answer_of(shelf.change(name, list, author)); };
   }
+  if (const std::string file = deleted_file(path.verb); !file.empty())
+    return [=](Shelf& shelf) { return answer_of(shelf.remove_file(name, file)); };
   const auto version = restored_version(path.verb);
-  const bool known =
-      version || path.verb == "undo" || path.verb == "redo" || path.verb == "publish" || path.verb == "discard";
+  const bool known = version || path.verb == "undo" || path.verb == "redo" || path.verb == "publish" ||
+                     path.verb == "discard" || path.verb == "merge";
   if (!known) return fail(ErrorCode::not_found, "there is nothing at this address", "", "see COMMANDS.md");
   const auto revision = studio::parse_revision(body);
   if (!revision) return tl::unexpected(revision.error());
@@ -107,13 +127,22 @@ Expected<StudioDesk::Work> work_of(const DraftPath& path, const std::string& bod
   if (path.verb == "undo") return [=, r = *revision](Shelf& shelf) { return answer_of(shelf.undo(name, r, author)); };
   if (path.verb == "redo") return [=, r = *revision](Shelf& shelf) { return answer_of(shelf.redo(name, r, author)); };
   if (path.verb == "discard") return [=, r = *revision](Shelf& shelf) { return answer_of(shelf.discard(name, r)); };
+  if (path.verb == "merge") {
+    auto from = studio::parse_stated(body, "from", 2 * kLongestDraftName);
+    if (!from) return tl::unexpected(from.error());
+    return [=, r = *revision](Shelf& shelf) { return answer_of(shelf.merge(name, r, *from, author)); };
+  }
   return [=, r = *revision](Shelf& shelf) { return answer_of(shelf.publish(name, r, author)); };
 }
 
-StudioDesk::Work upload_work(const DraftPath& path, const HttpRequest& request) {
+StudioDesk::Work upload_work(const DraftPath& path, const HttpRequest& request, const Author& author) {
+  const auto body = std::make_shared<const std::string>(request.body);
+  if (path.verb == kImport)
+    return [name = path.name, body, author](Shelf& shelf) {
+      return answer_of(shelf.unpack(name, std::as_bytes(std::span(*body)), author));
+    };
   const bool replace = request.query_value("replace") == "1";
-  return [name = path.name, file = path.verb.substr(kFiles.size()),
-          body = std::make_shared<const std::string>(request.body), replace](Shelf& shelf) {
+  return [name = path.name, file = path.verb.substr(kFiles.size()), body, replace](Shelf& shelf) {
     return answer_of(shelf.add_file(name, file, std::as_bytes(std::span(*body)), replace));
   };
 }
@@ -138,7 +167,7 @@ Site::Done stopping_preview(GatewaySite& site, const std::string& draft, const S
 Expected<StudioDesk::Work> posted_work(const std::optional<DraftPath>& path, const HttpRequest& request,
                                        const Author& author) {
   if (!path) return begin_work(request.body, author);
-  if (path->verb.starts_with(kFiles)) return upload_work(*path, request);
+  if (longest_studio_upload(request.path) > 0) return upload_work(*path, request, author);
   return work_of(*path, request.body, author);
 }
 
@@ -148,9 +177,11 @@ HttpAnswer fault_answer(const studio::ShelfFault& fault) {
   return fresh_answer(studio::fault_json(fault), "application/json", status_of(fault));
 }
 
-bool is_studio_upload(const std::string& path) {
+std::size_t longest_studio_upload(const std::string& path) {
   const auto draft = draft_path(path);
-  return draft && draft->verb.starts_with(kFiles);
+  if (!draft) return 0;
+  if (draft->verb == kImport) return studio::kMostArchiveBytes;
+  return draft->verb.starts_with(kFiles) && deleted_file(draft->verb).empty() ? studio::DraftFiles::kMostBytes : 0;
 }
 
 bool answer_studio_get(GatewaySite& site, const HttpRequest& request, const Site::Done& done) {
@@ -170,6 +201,7 @@ bool answer_studio_get(GatewaySite& site, const HttpRequest& request, const Site
   StudioDesk::Work work;
   if (path->verb.empty()) work = [name](Shelf& shelf) { return answer_of(shelf.view(name)); };
   if (path->verb == "text") work = [name](Shelf& shelf) { return text_answer(name, shelf.text(name)); };
+  if (path->verb == "export") work = [name](Shelf& shelf) { return archive_answer(name, shelf.pack(name)); };
   if (path->verb == "versions") work = [name](Shelf& shelf) { return answer_of(shelf.versions(name)); };
   if (path->verb == "files") work = [name](Shelf& shelf) { return answer_of(shelf.files(name)); };
   if (path->verb.starts_with(kFiles))

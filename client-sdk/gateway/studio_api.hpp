@@ -14,7 +14,7 @@ namespace mechane::gateway {
 
 /// A refusal of the shelf, with its status.
 [[nodiscard]] HttpAnswer fault_answer(const studio::ShelfFault& fault);
-/// Whether a POST to this address has a file's bytes for its body: /api/studio/drafts/NAME/files/FILE.
-[[nodiscard]] bool is_studio_upload(const std::string& path);
+/// How many bytes a POST to this address may have, whose body is a file: /api/studio/drafts/NAME/files/FILE or NAME/import. 0: it has JSON.
+[[nodiscard]] std::size_t longest_studio_upload(const std::string& path);
 
 }  // namespace mechane::gateway

@@ -73,6 +73,12 @@ Expected<void> check_file(const std::string& name, std::span<const std::byte> by
 
 }  // namespace
 
+bool is_exhibit_name(std::string_view name) {
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  return !name.empty() && name.size() <= 31 && name != kDiscarded && plain(name.front()) &&
+         std::ranges::all_of(name, [&](char c) { return plain(c) || c == '-'; });
+}
+
 bool is_file_name(std::string_view name) {
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); };
   const auto inner = [&](char c) { return plain(c) || c == '-' || c == '_' || c == '.'; };
@@ -80,19 +86,23 @@ bool is_file_name(std::string_view name) {
          kind_of(name) != nullptr;
 }
 
-std::vector<x3d::NodeId> uses_of_file(const x3d::Document& document, const std::string& name) {
+std::vector<FileUse> uses_of_file(const x3d::Document& document, const std::string& name) {
   const std::string url = fmt::format("{}/{}", kFilesFolder, name);
-  std::vector<x3d::NodeId> out;
+  std::vector<FileUse> out;
   for (const scenario::FileReference& reference : scenario::file_references(document))
-    if (std::ranges::find(reference.urls, url) != reference.urls.end()) out.push_back(reference.node);
+    if (std::ranges::find(reference.urls, url) != reference.urls.end())
+      out.push_back({document.describe(reference.node), document[reference.node].line});
   return out;
+}
+
+bool is_own_path(const fs::path& path) {
+  return path.lexically_normal().parent_path() == kFilesFolder;
 }
 
 fs::path own_file(const fs::path& folder, const fs::path& url) {
   std::error_code unknown;
-  const fs::path plain = url.lexically_normal();
-  const fs::path file = folder / plain;
-  return plain.parent_path() == kFilesFolder && fs::is_regular_file(file, unknown) ? file : fs::path();
+  const fs::path file = folder / url.lexically_normal();
+  return is_own_path(url) && fs::is_regular_file(file, unknown) ? file : fs::path();
 }
 
 Expected<std::vector<std::string>> copy_used(const x3d::Document& document, const fs::path& from, const fs::path& to) {
@@ -135,6 +145,23 @@ Expected<fs::path> DraftFiles::find(const std::string& name) const {
   for (const fs::path& folder : {draft_, exhibit_})
     if (files_in(folder).contains(name)) return folder / name;
   return fail(ErrorCode::not_found, "the draft has no such file", name, "take one of the list");
+}
+
+bool DraftFiles::has_other(const std::string& name, const fs::path& file) const {
+  const auto bytes = read_whole(file, kMostBytes);
+  return bytes && (is_other(draft_ / name, *bytes) || is_other(exhibit_ / name, *bytes));
+}
+
+Expected<void> DraftFiles::remove(const std::string& name) const {
+  if (auto there = find(name); !there) return tl::unexpected(there.error());
+  for (const fs::path& folder : {draft_, exhibit_}) {
+    if (!files_in(folder).contains(name)) continue;
+    std::error_code error;
+    if (!fs::remove(folder / name, error) && error)
+      return tl::unexpected(file_error("cannot be deleted", folder / name, error.value()));
+    (void)flush_to_disk(folder);
+  }
+  return {};
 }
 
 Expected<void> DraftFiles::put(const std::string& name, std::span<const std::byte> bytes, bool replace) const {

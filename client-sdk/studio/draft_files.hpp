@@ -17,6 +17,12 @@ namespace mechane::studio {
 /// What stands before the name in an exhibit's urls, and the name of the folder.
 inline constexpr std::string_view kFilesFolder = "files";
 
+/// The folder of discarded drafts, beside the others: no exhibit can have this name.
+inline constexpr std::string_view kDiscarded = "discarded";
+
+/// Whether it can be an exhibit's name, and so a folder's: 1 to 31 of a-z, 0-9 and '-', with a letter or digit first; not kDiscarded.
+[[nodiscard]] bool is_exhibit_name(std::string_view name);
+
 struct DraftFile {
   std::string name;
   std::uintmax_t bytes = 0;
@@ -40,6 +46,10 @@ class DraftFiles {
   [[nodiscard]] Expected<void> put(const std::string& name, std::span<const std::byte> bytes, bool replace) const;
   /// The draft's own, or the exhibit's. Errors: not_found.
   [[nodiscard]] Expected<std::filesystem::path> find(const std::string& name) const;
+  /// Whether the draft or the exhibit has a file of this name with other bytes than those of `file`.
+  [[nodiscard]] bool has_other(const std::string& name, const std::filesystem::path& file) const;
+  /// The draft's own and the exhibit's. Errors: not_found; io_failure.
+  [[nodiscard]] Expected<void> remove(const std::string& name) const;
 
  private:
   std::filesystem::path draft_;
@@ -49,6 +59,9 @@ class DraftFiles {
 /// 1 to 64 of the letters a-z and A-Z, digits, '-', '_' and '.', with a letter or digit first, and the ending of a mesh or a sound.
 [[nodiscard]] bool is_file_name(std::string_view name);
 
+/// Whether a path is files/NAME, however it is written.
+[[nodiscard]] bool is_own_path(const std::filesystem::path& path);
+
 /// FOLDER/files/NAME for the url files/NAME, where that file is there; empty for every other url.
 [[nodiscard]] std::filesystem::path own_file(const std::filesystem::path& folder, const std::filesystem::path& url);
 
@@ -57,7 +70,12 @@ class DraftFiles {
                                                            const std::filesystem::path& from,
                                                            const std::filesystem::path& to);
 
-/// Where a document names files/NAME: its elements, in the order written.
-[[nodiscard]] std::vector<x3d::NodeId> uses_of_file(const x3d::Document& document, const std::string& name);
+/// Where a document names a file.
+struct FileUse {
+  std::string place;  ///< "Inline WHEEL"
+  int line = 0;
+};
+/// Where it names files/NAME, in the order written.
+[[nodiscard]] std::vector<FileUse> uses_of_file(const x3d::Document& document, const std::string& name);
 
 }  // namespace mechane::studio

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/authoring/editor.hpp"
+#include "client-sdk/studio/addition.hpp"
 #include "client-sdk/studio/begin_at.hpp"
+#include "client-sdk/studio/bundle.hpp"
 #include "client-sdk/studio/draft_loader.hpp"
 #include "client-sdk/studio/parts.hpp"
 #include "client-sdk/studio/preview_file.hpp"
@@ -27,12 +29,13 @@ namespace {
 namespace fs = std::filesystem;
 using ShelfJson = nlohmann::json;
 
-/// The folder of discarded drafts, beside the others.
-constexpr std::string_view kDiscarded = "discarded";
 /// Of a mesh file, that are told.
 constexpr std::size_t kMostNodes = 200;
+/// Where an archive is unpacked; a draft cannot have this name.
+constexpr std::string_view kIncoming = ".incoming";
 /// What a draft begins as, before the exhibit's name.
 constexpr std::string_view kFromExhibit = "exhibit:";
+constexpr std::string_view kFromDraft = "draft:";
 
 std::string shelf_text(const ShelfJson& json) {
   return json.dump(-1, ' ', false, ShelfJson::error_handler_t::replace);
@@ -84,23 +87,34 @@ tl::unexpected<ShelfFault> name_taken(const std::string& name, const std::string
                       "take another name, or open that one"});
 }
 
+/// As an exhibit of another name than it had: a server cannot have two with one id.
+Expected<std::string> text_named(std::string_view text, const std::string& was, const std::string& name,
+                                 const fs::path& file) {
+  auto editor = authoring::Editor::read(text, file);
+  if (!editor) return tl::unexpected(editor.error());
+  if (was != name)
+    if (auto set = editor->set("id", std::vector<std::string>{name}); !set) return tl::unexpected(set.error());
+  return editor->text();
+}
+
+ShelfJson json_of(const std::vector<FileUse>& uses) {
+  ShelfJson list = ShelfJson::array();
+  for (const FileUse& use : uses)
+    list.push_back({{"place", use.place}, {"line", use.line}});
+  return list;
+}
+
+ShelfJson json_of(const std::vector<authoring::MergeNote>& notes) {
+  ShelfJson list = ShelfJson::array();
+  for (const authoring::MergeNote& note : notes)
+    list.push_back({{"what", note.what},
+                    {"theirs", note.theirs},
+                    {"here", note.ours},
+                    {"renamed", note.kind == authoring::MergeNote::Kind::renamed}});
+  return list;
+}
+
 }  // namespace
-
-std::string fault_json(const ShelfFault& fault) {
-  ShelfJson out{{"error", fault.error.what}, {"remedy", fault.error.remedy}};
-  if (!fault.error.where.empty()) out["place"] = fault.error.where;
-  if (fault.error.line > 0) out["line"] = fault.error.line;
-  if (fault.revision) out["revision"] = *fault.revision;
-  if (fault.command) out["command"] = *fault.command;
-  if (!fault.problems.empty()) out["problems"] = ShelfJson::parse(problems_json(nullptr, fault.problems));
-  return shelf_text(out);
-}
-
-bool is_exhibit_name(std::string_view name) {
-  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
-  return !name.empty() && name.size() <= 31 && name != kDiscarded && plain(name.front()) &&
-         std::ranges::all_of(name, [&](char c) { return plain(c) || c == '-'; });
-}
 
 Shelf::Shelf(fs::path scenarios, fs::path state) : scenarios_(std::move(scenarios)), state_(std::move(state)) {}
 
@@ -188,28 +202,30 @@ Expected<std::string> Shelf::first_text(const std::string& name, const std::stri
   if (!bytes && bytes.error().code == ErrorCode::not_found)
     return fail(ErrorCode::not_found, "there is no such exhibit", exhibit, "take one of the list");
   if (!bytes) return tl::unexpected(bytes.error());
-  auto editor = authoring::Editor::read(as_text(*bytes), exhibit_file(name));
-  if (!editor) return tl::unexpected(editor.error());
-  // A copy is an exhibit of its own: a server cannot have two with one id.
-  if (exhibit != name)
-    if (auto set = editor->set("id", std::vector<std::string>{name}); !set) return tl::unexpected(set.error());
-  return editor->text();
+  return text_named(as_text(*bytes), exhibit, name, exhibit_file(name));
+}
+
+ShelfResult<void> Shelf::need_place(const std::string& name, bool of_exhibit) {
+  const std::vector<std::string> drafts = draft_names();
+  const std::vector<std::string> exhibits = exhibit_names();
+  if (std::ranges::binary_search(drafts, name)) {
+    const auto opened = open(name);
+    return opened ? name_taken(name, (*opened)->draft.from()) : tl::unexpected(opened.error());
+  }
+  if (!of_exhibit && std::ranges::binary_search(exhibits, name)) return name_taken(name, "an exhibit");
+  if (drafts.size() < kMostDrafts) return {};
+  return shelf_fault({ErrorCode::too_large, "there are too many drafts", "", "discard some first"});
 }
 
 ShelfResult<std::string> Shelf::begin(const std::string& name, const std::string& from, const Author& author) {
   if (!is_exhibit_name(name)) return bad_exhibit_name();
-  const std::vector<std::string> drafts = draft_names();
-  const std::vector<std::string> exhibits = exhibit_names();
   const bool own = from == "exhibit:" + name;
-  if (std::ranges::binary_search(drafts, name)) {
+  if (std::ranges::binary_search(draft_names(), name)) {
     auto opened = open(name);
     if (!opened) return tl::unexpected(opened.error());
-    if (!own && (*opened)->draft.from() != from) return name_taken(name, (*opened)->draft.from());
-    return view_of(name, **opened);
+    if (own || (*opened)->draft.from() == from) return view_of(name, **opened);
   }
-  if (!own && std::ranges::binary_search(exhibits, name)) return name_taken(name, "an exhibit");
-  if (drafts.size() >= kMostDrafts)
-    return shelf_fault({ErrorCode::too_large, "there are too many drafts", "", "discard some first"});
+  if (auto place = need_place(name, own); !place) return tl::unexpected(place.error());
   auto text = first_text(name, from);
   if (!text) return shelf_fault(text.error());
   // The text names its files beside it: a copy brings those of the exhibit that it was copied from.
@@ -267,10 +283,9 @@ const std::vector<x3d::Problem>& Shelf::problems_of(const std::string& name, Ope
 }
 
 ShelfResult<std::string> Shelf::view_of(const std::string& name, Open& open, std::vector<std::string> added) {
-  x3d::Problems problems(name);
-  const auto document = x3d::read_document(open.draft.text(), exhibit_file(name), problems);
-  if (!document) return shelf_fault(document.error());
-  return view_json({name, open.draft.history(), *document, open.draft.changed().name, open.draft.notice(),
+  const auto text = document_of(name, true);
+  if (!text) return tl::unexpected(text.error());
+  return view_json({name, open.draft.history(), *text, open.draft.changed().name, open.draft.notice(),
                     problems_of(name, open), std::move(added)});
 }
 
@@ -400,22 +415,16 @@ ShelfResult<std::string> Shelf::publish(const std::string& name, std::int64_t re
 }
 
 ShelfResult<std::string> Shelf::files(const std::string& name) {
-  auto opened = open(name);
-  if (!opened) return tl::unexpected(opened.error());
-  x3d::Problems problems(name);
-  const auto document = x3d::read_document((*opened)->draft.text(), exhibit_file(name), problems);
-  if (!document) return shelf_fault(document.error());
+  const auto text = document_of(name, true);
+  if (!text) return tl::unexpected(text.error());
   ShelfJson list = ShelfJson::array();
   for (const DraftFile& file : files_of(name).all()) {
-    ShelfJson uses = ShelfJson::array();
-    for (const x3d::NodeId node : uses_of_file(*document, file.name))
-      uses.push_back({{"place", document->describe(node)}, {"line", (*document)[node].line}});
     list.push_back({{"name", file.name},
                     {"url", fmt::format("{}/{}", kFilesFolder, file.name)},
                     {"kind", file.sound ? "sound" : "mesh"},
                     {"bytes", file.bytes},
                     {"published", file.published},
-                    {"uses", std::move(uses)}});
+                    {"uses", json_of(uses_of_file(*text, file.name))}});
   }
   return shelf_text({{"files", std::move(list)}});
 }
@@ -427,6 +436,116 @@ ShelfResult<std::string> Shelf::add_file(const std::string& name, const std::str
   if (auto put = files_of(name).put(file, bytes, replace); !put) return shelf_fault(put.error());
   (*opened)->checked = -1;
   return files(name);
+}
+
+ShelfResult<std::string> Shelf::remove_file(const std::string& name, const std::string& file) {
+  auto opened = open(name);
+  if (!opened) return tl::unexpected(opened.error());
+  ShelfFault used{{ErrorCode::conflict, file + " is used", "", "remove what uses it, and publish the draft"}};
+  for (const bool drafted : {true, false}) {
+    const auto text = document_of(name, drafted);
+    if (!text && (drafted || text.error().error.code != ErrorCode::not_found)) return tl::unexpected(text.error());
+    if (!text) continue;
+    for (const FileUse& use : uses_of_file(*text, file))
+      used.uses.push_back({drafted ? use.place : "the published exhibit, " + use.place, use.line});
+  }
+  if (!used.uses.empty()) used.error.what += " by " + used.uses.front().place;
+  if (!used.uses.empty()) return tl::unexpected(std::move(used));
+  if (auto removed = files_of(name).remove(file); !removed) return shelf_fault(removed.error());
+  (*opened)->checked = -1;
+  return files(name);
+}
+
+ShelfResult<x3d::Document> Shelf::document_of(const std::string& name, bool drafted) {
+  if (!is_exhibit_name(name)) return bad_exhibit_name();
+  const auto opened = drafted ? open(name) : ShelfResult<Open*>(nullptr);
+  if (!opened) return tl::unexpected(opened.error());
+  const auto bytes = drafted ? std::vector<std::byte>() : read_whole(exhibit_file(name), Draft::kMostBytes);
+  if (!bytes && bytes.error().code == ErrorCode::not_found)
+    return shelf_fault({ErrorCode::not_found, "there is no such exhibit", name, "take one of the list"});
+  if (!bytes) return shelf_fault(bytes.error());
+  x3d::Problems problems(name);
+  auto read = x3d::read_document(drafted ? (*opened)->draft.text() : as_text(*bytes), exhibit_file(name), problems);
+  if (!read) return shelf_fault(read.error());
+  return std::move(*read);
+}
+
+fs::path Shelf::file_at(const std::string& name, bool drafted, const std::string& path) const {
+  if (fs::path own = drafted ? own_file(state_ / name, path) : fs::path(); !own.empty()) return own;
+  const fs::path itself = exhibit_file(name).lexically_normal();
+  fs::path file = (itself.parent_path() / path).lexically_normal();
+  const fs::path below = file.lexically_relative(scenarios_.lexically_normal());
+  std::error_code unknown;
+  const bool here = !below.empty() && *below.begin() != ".." && file != itself && fs::is_regular_file(file, unknown);
+  return here ? file : fs::path();
+}
+
+ShelfResult<std::string> Shelf::pack(const std::string& name) {
+  const bool drafted = std::ranges::binary_search(draft_names(), name);
+  const auto text = document_of(name, drafted);
+  if (!text) return tl::unexpected(text.error());
+  const Bundle whole = bundle(*text, {[&](const std::string& path) { return file_at(name, drafted, path); }});
+  auto bytes = write_archive(name, whole.text, whole.files);
+  if (!bytes) return shelf_fault(bytes.error());
+  return std::move(*bytes);
+}
+
+Expected<void> Shelf::unpack_to(const fs::path& folder, const std::string& name, std::span<const std::byte> archive,
+                                const Author& author) const {
+  const DraftFiles files(folder, exhibit_file(name).parent_path());
+  const auto exhibit = read_archive(archive, [&](const std::string& file, std::span<const std::byte> bytes) {
+    return files.put(file, bytes, false);
+  });
+  if (!exhibit) return tl::unexpected(exhibit.error());
+  auto text = text_named(exhibit->text, exhibit->name, name, exhibit_file(name));
+  if (!text) return tl::unexpected(text.error());
+  const auto made = Draft::make(folder, std::move(*text), "file:" + exhibit->name, author);
+  return made ? Expected<void>() : tl::unexpected(made.error());
+}
+
+ShelfResult<std::string> Shelf::unpack(const std::string& name, std::span<const std::byte> archive,
+                                       const Author& author) {
+  if (!is_exhibit_name(name)) return bad_exhibit_name();
+  if (auto place = need_place(name, false); !place) return tl::unexpected(place.error());
+  const fs::path folder = state_ / kIncoming;
+  std::error_code error, ignored;
+  fs::remove_all(folder, ignored);  // of a program that was ended meanwhile
+  auto unpacked = unpack_to(folder, name, archive, author);
+  if (unpacked) fs::rename(folder, state_ / name, error);
+  if (error) unpacked = tl::unexpected(file_error("cannot be made", state_ / name, error.value()));
+  if (!unpacked) {
+    fs::remove_all(folder, ignored);
+    return shelf_fault(unpacked.error());
+  }
+  (void)flush_to_disk(state_);
+  return view(name);
+}
+
+ShelfResult<std::string> Shelf::merge(const std::string& name, std::int64_t revision, const std::string& from,
+                                      const Author& author) {
+  auto opened = open_at(name, revision);
+  if (!opened) return tl::unexpected(opened.error());
+  const bool drafted = from.starts_with(kFromDraft);
+  if (!drafted && !from.starts_with(kFromExhibit))
+    return shelf_fault({ErrorCode::invalid_value, "it is not said what is added to the draft", from,
+                        "write exhibit:NAME for what is published, or draft:NAME"});
+  const std::string other = from.substr(from.find(':') + 1);
+  if (other == name)
+    return shelf_fault({ErrorCode::invalid_value, "an exhibit is not added to itself", from,
+                        "duplicate its bodies, or make a copy of it under another name first"});
+  const auto ours = document_of(name, true), theirs = document_of(other, drafted);
+  if (!ours || !theirs) return tl::unexpected((ours ? theirs : ours).error());
+  const DraftFiles files = files_of(name);
+  const auto added =
+      addition_of(*ours, *theirs, files, [&](const std::string& path) { return file_at(other, drafted, path); });
+  if (!added) return shelf_fault(added.error());
+  const auto step = [&] { return (*opened)->draft.step("add " + other, added->text, author); };
+  if (auto done = put_files(files, added->files, step); !done) return shelf_fault(done.error());
+  auto view = view_of(name, **opened);
+  if (!view) return view;
+  ShelfJson answer = ShelfJson::parse(*view);
+  answer["merged"] = json_of(added->notes);
+  return shelf_text(answer);
 }
 
 ShelfResult<std::string> Shelf::nodes_of_file(const std::string& name, const std::string& file) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,25 +12,13 @@
 #include "client-sdk/studio/apply.hpp"
 #include "client-sdk/studio/draft.hpp"
 #include "client-sdk/studio/draft_files.hpp"
+#include "client-sdk/studio/shelf_fault.hpp"
 #include "client-sdk/studio/versions.hpp"
 #include "server/state/description.hpp"
+#include "server/x3d/document.hpp"
 #include "server/x3d/problem.hpp"
 
 namespace mechane::studio {
-
-/// Why a request came to nothing.
-struct ShelfFault {
-  Error error;
-  bool stale = false;                      ///< the draft has another revision than the one that the request is for
-  std::optional<std::int64_t> revision{};  ///< of the draft, where `stale`
-  std::optional<std::size_t> command{};    ///< that was refused
-  std::vector<x3d::Problem> problems{};    ///< that keep it from being published or shown
-};
-/// As one JSON object: what is wrong, what to do, and where, as far as it is known.
-[[nodiscard]] std::string fault_json(const ShelfFault& fault);
-
-template <class T>
-using ShelfResult = tl::expected<T, ShelfFault>;
 
 /// A draft compiled: what a server would make of it.
 struct CompiledDraft {
@@ -78,6 +65,17 @@ class Shelf {
   /// As DraftFiles::put(). Undo does not take it back. Returns the list of files.
   [[nodiscard]] ShelfResult<std::string> add_file(const std::string& name, const std::string& file,
                                                   std::span<const std::byte> bytes, bool replace);
+  /// Deletes a file that neither the draft nor the published exhibit names. Undo does not bring it back. Returns the list of files.
+  [[nodiscard]] ShelfResult<std::string> remove_file(const std::string& name, const std::string& file);
+  /// The draft as one file, or the exhibit where there is no draft: an archive with all meshes and sounds that it names.
+  [[nodiscard]] ShelfResult<std::string> pack(const std::string& name);
+  /// A new draft from an archive of unknown origin. Where anything is refused, nothing is left of it. Returns the view.
+  [[nodiscard]] ShelfResult<std::string> unpack(const std::string& name, std::span<const std::byte> archive,
+                                                const Author& author);
+  /// Adds all of another exhibit to the draft, as one step: "exhibit:NAME" as it is published, or "draft:NAME". Its own files come into the
+  /// draft's. Returns the view, with what had to be renamed.
+  [[nodiscard]] ShelfResult<std::string> merge(const std::string& name, std::int64_t revision, const std::string& from,
+                                               const Author& author);
   /// What bodies can be made of a mesh file: its nodes with the volumes of those that are closed. It imports the file.
   [[nodiscard]] ShelfResult<std::string> nodes_of_file(const std::string& name, const std::string& file);
   [[nodiscard]] ShelfResult<CompiledDraft> compile(const std::string& name);
@@ -98,6 +96,14 @@ class Shelf {
     std::uintmax_t size = 0;
     state::Texts title;
   };
+  /// The draft as it is read, or what is published.
+  [[nodiscard]] ShelfResult<x3d::Document> document_of(const std::string& name, bool drafted);
+  /// The file of a path in such a document; empty: it is not there, not among the museum's exhibits, or the document itself.
+  [[nodiscard]] std::filesystem::path file_at(const std::string& name, bool drafted, const std::string& path) const;
+  /// A name that no draft and no exhibit has, and a place for another draft.
+  [[nodiscard]] ShelfResult<void> need_place(const std::string& name, bool of_exhibit);
+  [[nodiscard]] Expected<void> unpack_to(const std::filesystem::path& folder, const std::string& name,
+                                         std::span<const std::byte> archive, const Author& author) const;
   [[nodiscard]] ShelfResult<Open*> open(const std::string& name);
   [[nodiscard]] ShelfResult<Open*> open_at(const std::string& name, std::int64_t revision);
   Open& keep(const std::string& name, Draft draft);
@@ -123,8 +129,5 @@ class Shelf {
   std::map<std::filesystem::path, KnownTitle> titles_;
   std::uint64_t uses_ = 0;
 };
-
-/// Whether it can be an exhibit's name, and so a folder's: 1 to 31 of a-z, 0-9 and '-', with a letter or digit first; not "discarded".
-[[nodiscard]] bool is_exhibit_name(std::string_view name);
 
 }  // namespace mechane::studio

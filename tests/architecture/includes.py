@@ -70,6 +70,7 @@ LIBRARIES = {
     "Boost.Beast": (re.compile(r"boost/(asio|beast|system)\b"), {"client-sdk/drivers", "client-sdk/gateway"}),
     "OpenSSL": (re.compile(r"openssl/"), {"client-sdk/gateway"}),
     "libsodium": (re.compile(r"sodium"), {"proto", "client-sdk/gateway"}),
+    "libzip": (re.compile(r"zip\.h$"), {"client-sdk/studio"}),
     "libcurl": (re.compile(r"curl/"), {"client-sdk/assets"}),
     "OpenAL": (re.compile(r"AL/"), {"client-sdk/sound"}),
     "meshoptimizer": (re.compile(r"meshoptimizer"), {"client-sdk/scene"}),

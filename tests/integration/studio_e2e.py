@@ -1,9 +1,11 @@
 """Authors edit drafts through the gateway: nothing that was answered is lost, nobody overwrites another, and a draft becomes an exhibit."""
 
+import io
 import json
 import shutil
 import subprocess
 import unittest
+import zipfile
 
 from browser import Page, WithGateway
 from harness import PATIENCE, ROOT, marked
@@ -85,6 +87,48 @@ class Studio(WithGateway):
         self.posted(operator, f"{DRAFT}/publish", {"revision": view["revision"]})
         self.assertEqual((self.file.parent / "files/arm.obj").read_text(), BLOCK)
         self.assertTrue(self.got(operator, f"{DRAFT}/files")["files"][0]["published"])
+        self.assertEqual(process.stop(), 0, process.text()[-2000:])
+
+    def bring_in(self, page, name, archive, status=200):
+        told = page.post(f"/api/studio/drafts/{name}/import", archive, **{"Content-Type": "application/octet-stream"})
+        self.assertEqual(told[0], status, told)
+        return json.loads(told[1])
+
+    def test_a_draft_is_exported_imported_and_added_to_another(self):
+        process, operator = self.gateway("--scenarios", self.scenarios)
+        self.posted(operator, "/api/accounts", {"user": "tablet", "role": "visitor", "password": "a-long-password"})
+        view = self.posted(operator, "/api/studio/drafts", {"name": SCREW, "from": f"exhibit:{SCREW}"})
+        self.bring(operator, "arm.obj", BLOCK)
+        body = {"op": "insert", "url": "files/arm.obj", "node": "block", "mass": 4.2, "name": "ARM", "position": [2, 1, 0]}
+        view = self.posted(operator, f"{DRAFT}/commands", {"revision": view["revision"], "commands": [body]})
+        told = self.posted(operator, f"{DRAFT}/files/arm.obj/delete", {}, 409)
+        self.assertEqual(len(told["uses"]), 1, told)
+
+        status, headers, archive = operator.get(f"{DRAFT}/export")
+        self.assertEqual((status, headers["content-type"]), (200, "application/zip"))
+        self.assertEqual(operator.get(f"{DRAFT}/export")[2], archive)
+        names = zipfile.ZipFile(io.BytesIO(archive)).namelist()
+        self.assertEqual(names, [f"{SCREW}/{SCREW}.x3d", f"{SCREW}/files/archimedes-screw.glb", f"{SCREW}/files/arm.obj"])
+
+        self.bring_in(self.page("tablet", "a-long-password"), "second", archive, 403)
+        self.bring_in(operator, SCREW, archive, 409)
+        self.bring_in(operator, "second", archive[:-40], 400)
+        self.assertEqual(operator.get("/api/studio/drafts/second")[0], 404)
+        second = self.bring_in(operator, "second", archive)
+        self.assertEqual([one for one in second["problems"] if one["severity"] == "error"], [])
+        self.bring_in(operator, "second", archive, 409)
+
+        both = self.posted(operator, f"{DRAFT}/merge", {"revision": view["revision"], "from": "draft:second"})
+        self.assertEqual([one for one in both["problems"] if one["severity"] == "error"], [])
+        self.assertIn({"what": "name", "theirs": "ARM", "here": "ARM_2", "renamed": True}, both["merged"])
+        self.posted(operator, f"{DRAFT}/merge", {"revision": view["revision"], "from": "draft:second"}, 409)
+        for place, status in (("draft:third", 404), (f"draft:{SCREW}", 400), ("second", 400)):
+            self.posted(operator, f"{DRAFT}/merge", {"revision": both["revision"], "from": place}, status)
+        self.posted(operator, f"{DRAFT}/undo", {"revision": both["revision"]})
+        self.bring(operator, "old.obj", BLOCK)
+        left = self.posted(operator, f"{DRAFT}/files/old.obj/delete", {})["files"]
+        self.assertEqual([one["name"] for one in left if one["uses"]], ["arm.obj"])
+        self.posted(operator, f"{DRAFT}/files/old.obj/delete", {}, 404)
         self.assertEqual(process.stop(), 0, process.text()[-2000:])
 
     @marked("address")

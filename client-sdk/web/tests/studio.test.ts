@@ -2,7 +2,7 @@ import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import { ApiError } from '../src/console/api';
 import { degreesOf, numbersFrom, quaternionFrom, switchCommands, wordsCommand, written, type Command } from '../src/studio/commands';
 import { Draft, type DraftRequests, type DraftState, type Order } from '../src/studio/draft';
-import { filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/files';
+import { exhibitName, filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/files';
 import { agentsOf, ruleText, stepsOf } from '../src/studio/flow';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/joint';
 import { isOrdered, orderCommands } from '../src/studio/order';
@@ -166,10 +166,18 @@ it('a joint in the making becomes one step, with its axis in the world and stops
 it('files get names that the gateway takes, and bodies of closed meshes their mass', () => {
   expect(['Τροχός 2.GLB', 'Ärm (new).obj', '.ogg', '../x.ply', 'a', 'a.exe'].map(plainName)).toEqual(
     ['2.glb', 'Arm-new.obj', 'file.ogg', 'x.ply', 'a', 'a.exe']);
+  expect(['My Crane (2).zip', 'Γερανός.zip', 'a_b.ZIP', `${'x'.repeat(40)}.zip`].map(exhibitName)).toEqual(
+    ['my-crane-2', 'file', 'a-b', 'x'.repeat(31)]);
   expect(['a.glb', 'a.exe', 'a'].map(isTaken)).toEqual([true, false, false]);
   expect(massOf({ name: 'a', volume: 0.0123456 }, 'oak')).toBe('8.64');
   expect(massOf({ name: 'a', volume: null }, 'oak')).toBe('');
   for (const nothing of [null, [], { files: [3], nodes: 'x' }]) expect(() => [filesOf(nothing), nodesOf(nothing)]).not.toThrow();
+});
+
+it('an added exhibit’s notes are read, whatever is missing', () => {
+  expect(view({ merged: [{ what: 'step', theirs: 'lift', here: 'lift_2', renamed: true }, 3] }).merged).toEqual([
+    { what: 'step', theirs: 'lift', here: 'lift_2', renamed: true }, { what: '', theirs: '', here: '', renamed: false }]);
+  expect(view().merged).toEqual([]);
 });
 
 it('the palette finds Greek without accents, and what begins with it first', () => {

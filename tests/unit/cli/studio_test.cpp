@@ -51,6 +51,24 @@ TEST(StudioScript, EditsAndSaves) {
   EXPECT_NE(after.find("name='effortScale' value='0.5'"), std::string::npos);
 }
 
+TEST(StudioScript, ExportsWhatItHasWithTheMeshesOfIt) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.path() / "in");
+  std::filesystem::create_directory_symlink(test::source_folder() / "scenarios/models", folder.path() / "models");
+  const auto file = folder.write("in/screw.x3d", text_of(shipped_file()));
+  const ScriptRun run = run_script(file, R"({"op": "set", "path": "effortScale", "value": 0.5}
+{"do": "export"}
+)");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.answers.at(1)["exported"], (folder.path() / "in/screw.zip").string());
+  const std::string archive = text_of(folder.path() / "in/screw.zip");
+  EXPECT_TRUE(archive.starts_with("PK"));
+  EXPECT_NE(archive.find("screw/files/archimedes-screw.glb"), std::string::npos);
+  EXPECT_NE(archive.find("name='effortScale' value='0.5'"), std::string::npos);
+  const ScriptRun refused = run_script(folder.write("My Screw.x3d", text_of(shipped_file())), "{\"do\": \"export\"}\n");
+  EXPECT_EQ(refused.status, 1);
+}
+
 TEST(StudioScript, WhatIsRefusedChangesNothing) {
   const ScratchFolder folder;
   const std::string before = text_of(shipped_file());

@@ -288,6 +288,95 @@ TEST(Shelf, FilesThatAreUsedTravelWithTheExhibit) {
   EXPECT_EQ(text_of(museum.state() / "second-screw/files/turn.ogg"), sound);
 }
 
+TEST(Shelf, AFileIsDeletedThatNothingUses) {
+  const Museum museum;
+  Shelf shelf = museum.shelf();
+  const std::string name = "archimedes-screw";
+  const fs::path published = museum.screw().parent_path() / "files/turn.ogg";
+  right(shelf.begin(name, "exhibit:archimedes-screw", kEleni));
+  right(shelf.add_file(name, "turn.ogg", bytes_of("OggS"), false));
+  right(shelf.add_file(name, "unused.ogg", bytes_of("OggS"), false));
+  constexpr const char* kSound =
+      R"([{"op": "set", "path": "activities/use/steps/fill/text/audio.en", "value": "files/turn.ogg"}])";
+  right(shelf.change(name, command_list(0, kSound), kEleni));
+  const auto used = shelf.remove_file(name, "turn.ogg");
+  ASSERT_FALSE(used);
+  EXPECT_THAT(used.error().error, is_fault(ErrorCode::conflict, {"turn.ogg"}));
+  const json told = json::parse(fault_json(used.error()));
+  ASSERT_EQ(told["uses"].size(), 1U) << told;
+  EXPECT_GT(told["uses"][0]["line"], 0);
+  right(shelf.publish(name, 1, kEleni));
+  right(shelf.undo(name, 1, kEleni));
+  const auto in_use = shelf.remove_file(name, "turn.ogg");
+  ASSERT_FALSE(in_use) << "visitors hear it";
+  EXPECT_THAT(in_use.error().uses.at(0).place, ::testing::HasSubstr("published"));
+  EXPECT_TRUE(fs::exists(published));
+  right(shelf.publish(name, 2, kEleni));
+  json list = right(shelf.remove_file(name, "turn.ogg"))["files"];
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(list[0]["name"], "unused.ogg");
+  EXPECT_FALSE(fs::exists(published));
+  list = right(shelf.remove_file(name, "unused.ogg"))["files"];
+  EXPECT_TRUE(list.empty());
+  for (const char* file : {"unused.ogg", "", "..", "../draft.x3d", "no-such.ply"})
+    EXPECT_EQ(shelf.remove_file(name, file).error().error.code, ErrorCode::not_found) << file;
+  EXPECT_TRUE(fs::exists(museum.state() / name / "draft.x3d"));
+}
+
+TEST(Shelf, AnotherExhibitIsAddedAsOneStepWithItsFiles) {
+  const Museum museum;
+  Shelf shelf = museum.shelf();
+  constexpr const char* kSounds = R"([
+    {"op": "set", "path": "activities/try/steps/first/text/audio.en", "value": "files/bell.ogg"},
+    {"op": "set", "path": "activities/try/steps/first/text/audio.el", "value": "files/same.ogg"}])";
+  for (const char* name : {"mine", "other"}) {
+    right(shelf.begin(name, "template:empty", kNikos));
+    right(shelf.add_file(name, "bell.ogg", bytes_of(std::string("OggS ") + name), false));
+    right(shelf.add_file(name, "same.ogg", bytes_of("OggS"), false));
+    right(shelf.change(name, command_list(0, kSounds), kNikos));
+  }
+  const json view = right(shelf.view("other"));
+  const std::string before = *shelf.text("mine");
+  const json both = right(shelf.merge("mine", 1, "draft:other", kEleni));
+  EXPECT_EQ(both["revision"], 2);
+  EXPECT_EQ(both["undoes"], "add other");
+  EXPECT_EQ(both["bodies"].size(), 2 * view["bodies"].size());
+  for (const json& problem : both["problems"])
+    EXPECT_NE(problem["severity"], "error") << problem;
+  ASSERT_FALSE(both["merged"].empty());
+  EXPECT_EQ(both["merged"][0]["renamed"], true);
+  EXPECT_EQ(both["merged"][0]["here"], both["merged"][0]["theirs"].get<std::string>() + "_2");
+  EXPECT_EQ(text_of(museum.state() / "mine/files/bell-2.ogg"), "OggS other");
+  EXPECT_EQ(text_of(museum.state() / "mine/files/bell.ogg"), "OggS mine");
+  EXPECT_FALSE(fs::exists(museum.state() / "mine/files/same-2.ogg"));
+  EXPECT_NE(shelf.text("mine")->find("\"files/bell-2.ogg\""), std::string::npos);
+  right(shelf.undo("mine", 2, kEleni));
+  EXPECT_EQ(*shelf.text("mine"), before);
+}
+
+TEST(Shelf, WhatIsPublishedIsAddedWithThePathsOfItsMeshes) {
+  const Museum museum;
+  Shelf shelf = museum.shelf();
+  right(shelf.begin("mine", "template:empty", kEleni));
+  const json both = right(shelf.merge("mine", 0, "exhibit:archimedes-screw", kEleni));
+  for (const json& problem : both["problems"])
+    EXPECT_NE(problem["severity"], "error") << problem;
+  EXPECT_NE(shelf.text("mine")->find("\"../models/archimedes-screw.glb\""), std::string::npos);
+  EXPECT_FALSE(fs::exists(museum.state() / "mine/files"));
+  const auto fault = [&](std::int64_t revision, const std::string& from) {
+    const auto refused = shelf.merge("mine", revision, from, kEleni);
+    EXPECT_FALSE(refused) << from;
+    return refused ? ErrorCode() : refused.error().error.code;
+  };
+  EXPECT_EQ(fault(0, "exhibit:archimedes-screw"), ErrorCode::conflict);
+  EXPECT_EQ(fault(1, "exhibit:no-such"), ErrorCode::not_found);
+  EXPECT_EQ(fault(1, "draft:archimedes-screw"), ErrorCode::not_found);
+  EXPECT_EQ(fault(1, "exhibit:../mine"), ErrorCode::invalid_value);
+  EXPECT_EQ(fault(1, "draft:mine"), ErrorCode::invalid_value);
+  EXPECT_EQ(fault(1, "archimedes-screw"), ErrorCode::invalid_value);
+  EXPECT_EQ(right(shelf.view("mine"))["revision"], 1);
+}
+
 TEST(PreviewFile, OnlyTheDraftsOwnFilesAreElsewhere) {
   const std::vector<std::string> own{"a.glb"};
   EXPECT_EQ(

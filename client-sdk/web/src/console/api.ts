@@ -131,6 +131,10 @@ export class Api {
     return (await this.send('GET', `/api/visits/${encodeURIComponent(visit)}/tape`)).arrayBuffer();
   }
 
+  async file(path: string): Promise<Blob> {
+    return (await this.send('GET', path)).blob();
+  }
+
   /** A Blob is sent as the bytes that it is. */
   async json(method: string, path: string, body?: object): Promise<unknown> {
     const answer = await this.send(method, path, body);

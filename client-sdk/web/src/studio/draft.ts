@@ -4,7 +4,8 @@ import { ApiError } from '../console/api';
 import type { Edit } from './commands';
 import type { View } from './view';
 
-export type Order = { kind: 'edit'; edit: Edit } | { kind: 'undo' | 'redo' } | { kind: 'restore'; version: number };
+export type Order = { kind: 'edit'; edit: Edit } | { kind: 'undo' | 'redo' } | { kind: 'restore'; version: number } |
+  { kind: 'merge'; from: string };
 /** The requests that a draft needs. Errors are ApiErrors. */
 export interface DraftRequests {
   view(): Promise<View>;
@@ -71,6 +72,10 @@ export class Draft {
   }
   restore(version: number): Promise<Outcome> {
     return this.give({ kind: 'restore', version });
+  }
+  /** Adds all of another exhibit: "exhibit:NAME" or "draft:NAME". */
+  merge(from: string): Promise<Outcome> {
+    return this.give({ kind: 'merge', from });
   }
   /** The network is said to be back. */
   hurry(): void {

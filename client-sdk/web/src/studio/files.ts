@@ -17,6 +17,8 @@ export interface MeshNode {
 }
 
 export const kMostBytes = 64 * 1024 * 1024;
+/** Of an exhibit as one file. */
+export const kMostArchiveBytes = 128 * 1024 * 1024;
 export const kEndings = ['.glb', '.obj', '.stl', '.ply', '.x3d', '.ogg', '.wav', '.flac'];
 /** kg/m³. */
 export const kDensities = { oak: 700, pine: 500, stone: 2600, bronze: 8700, iron: 7800, lead: 11300 } as const;
@@ -37,6 +39,9 @@ export function plainName(given: string): string {
     .replace(/^[-_]+|[-_]+$/g, '');
   return `${plain === '' ? 'file' : plain.slice(0, 50)}${ending}`;
 }
+/** The name that an exhibit's file suggests: "My Crane (2).zip" is "my-crane-2". */
+export const exhibitName = (file: string): string => plainName(file).replace(/\.[^.]*$/, '').toLowerCase().replace(/_/g, '-').slice(0, 31)
+  .replace(/-+$/, '');
 export const isTaken = (name: string): boolean => kEndings.some((ending) => name.endsWith(ending));
 /** kg, in three digits; "": it cannot be known. */
 export const massOf = (node: MeshNode | undefined, material: Material): string =>

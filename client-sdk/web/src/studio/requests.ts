@@ -29,6 +29,11 @@ export const studio = (api: Api) => ({
     filesOf(await api.json('POST', `${at(name, '/files')}/${encodeURIComponent(file)}${replace ? '?replace=1' : ''}`, bytes)),
   meshNodes: async (name: string, file: string): Promise<MeshNode[]> =>
     nodesOf(await api.json('GET', `${at(name, '/files')}/${encodeURIComponent(file)}`)),
+  deleteFile: async (name: string, file: string): Promise<DraftFile[]> =>
+    filesOf(await api.json('POST', `${at(name, '/files')}/${encodeURIComponent(file)}/delete`, {})),
+  /** The draft with all that it uses, as one file. */
+  exported: (name: string): Promise<Blob> => api.file(at(name, '/export')),
+  imported: async (name: string, bytes: Blob): Promise<View> => viewOf(await api.json('POST', at(name, '/import'), bytes)),
   textAddress: (name: string): string => at(name, '/text'),
   /** What a display would show of the draft at rest. */
   scene: async (name: string): Promise<KioskState> => {
@@ -54,6 +59,8 @@ export const draftRequests = (api: Api, name: string): DraftRequests => ({
         return ask('/commands', { commands: order.edit.commands });
       case 'restore':
         return ask(`/versions/${order.version}/restore`);
+      case 'merge':
+        return ask('/merge', { from: order.from });
       default:
         return ask(`/${order.kind}`);
     }

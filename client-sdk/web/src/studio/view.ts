@@ -64,6 +64,15 @@ export interface View {
   views: NodeFields[];
   /** DEFs that the last step added. */
   added: string[];
+  /** What of a merged exhibit is another here. */
+  merged: MergeNote[];
+}
+/** `renamed`: both had the name `theirs`; otherwise there is only one such value, and `here` is kept. */
+export interface MergeNote {
+  what: string;
+  theirs: string;
+  here: string;
+  renamed: boolean;
 }
 export interface Exhibit {
   name: string;
@@ -164,6 +173,8 @@ export function viewOf(v: unknown): View {
     joints: list(w.joints).map((j) => nodeOf(j, '')),
     views: list(w.views).map((v) => nodeOf(v, 'Viewpoint')),
     added: list(w.added).map(text),
+    merged: list(w.merged).map(fields)
+      .map((m) => ({ what: text(m.what), theirs: text(m.theirs), here: text(m.here), renamed: m.renamed === true })),
   };
 }
 

@@ -300,8 +300,9 @@ export class StudioStandIn extends StandIn {
     let said = '';
     request.on('data', (bytes) => (said += bytes));
     request.on('end', () => {
-      const [status, body] = pathname.includes('/files') && this.signedIn
-        ? this.answerFiles(request, said) : this.answerTo(request.method, pathname, said === '' ? {} : JSON.parse(said));
+      const ways = { files: () => this.answerFiles(request, said), import: () => this.answerImport(request, pathname, said) };
+      const [, way] = (this.signedIn && pathname.match(/\/(files|import)\b/)) || [];
+      const [status, body] = way ? ways[way]() : this.answerTo(request.method, pathname, said === '' ? {} : JSON.parse(said));
       response.writeHead(status, { 'content-type': 'application/json' });
       response.end(JSON.stringify(body));
     });
@@ -310,6 +311,12 @@ export class StudioStandIn extends StandIn {
     const { pathname, search } = new URL(url, 'http://stand-in');
     const name = decodeURIComponent(pathname.split('/files/')[1] ?? '');
     if (method === 'GET' && name !== '') return [200, { nodes: [{ name: 'wheel', volume: 0.01 }, { name: 'flag', volume: null }] }];
+    if (name.endsWith('/delete')) {
+      const gone = this.files.find((f) => f.name === name.replace('/delete', ''));
+      if (gone.uses.length > 0) return [409, { error: `${gone.name} is used`, remedy: 'remove what uses it first', uses: gone.uses }];
+      this.files = this.files.filter((f) => f !== gone);
+      return [200, { files: this.files }];
+    }
     const old = this.files.find((f) => f.name === name);
     if (method === 'POST') {
       if (headers['content-type'] !== 'application/octet-stream') return [415, { error: 'this is not a file’s bytes', remedy: '' }];
@@ -319,6 +326,12 @@ export class StudioStandIn extends StandIn {
         bytes: said.length, published: false, uses: old?.uses ?? [] }];
     }
     return [200, { files: this.files }];
+  }
+  answerImport({ headers }, path, said) {
+    if (headers['content-type'] !== 'application/octet-stream') return [415, { error: 'this is not a file’s bytes', remedy: '' }];
+    if (!said.startsWith('PK')) return [400, { error: 'this is no zip archive, or it is damaged or cut short', remedy: 'export it again' }];
+    this.asked.push({ path });
+    return [200, this.view()];
   }
   answerTo(method, path, body) {
     const user = { user: 'eleni', role: 'operator', csrf: 'k' };
@@ -343,6 +356,7 @@ export class StudioStandIn extends StandIn {
       templates: [{ name: 'empty', title: { el: 'Κενό', en: 'Empty' } }] }];
     if (path === '/api/studio/drafts') return [200, this.view()];
     if (rest === '') return [200, this.view()];
+    if (rest === '/export') return [200, { an: 'archive' }];
     if (rest === '/scene') return [200, this.sceneOf()];
     if (rest.startsWith('/preview')) return this.preview(rest.replace('/preview', ''), body);
     if (rest === '/versions') {
@@ -357,6 +371,14 @@ export class StudioStandIn extends StandIn {
     if (rest === '/publish') {
       ++this.published;
       return [200, { published: true }];
+    }
+    if (rest === '/merge') {
+      if (body.from !== 'exhibit:catapult') return [404, { error: 'there is no such exhibit', remedy: 'take one of the list' }];
+      this.step([], 'eleni');
+      this.done.at(-1).what = 'add catapult';
+      return [200, this.view({ merged: [
+        { what: 'name', theirs: 'FRAME', here: 'FRAME_2', renamed: true }, { what: 'step', theirs: 'grasp', here: 'grasp_2', renamed: true },
+        { what: 'effortScale', theirs: '0.02', here: '0.01', renamed: false }] })];
     }
     if (rest === '/undo') this.back(this.done, this.undone);
     else if (rest === '/redo') this.back(this.undone, this.done);
