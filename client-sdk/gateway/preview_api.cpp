@@ -21,16 +21,16 @@ HttpAnswer looked_at(GatewaySite& site, const std::string& draft) {
 }
 
 void start_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
-  const auto wish = studio::parse_trial(body);
-  if (!wish) return done(fault_answer({wish.error()}));
+  const auto wanted = studio::parse_trial(body);
+  if (!wanted) return done(fault_answer({wanted.error()}));
   if (site.knows_kiosk(PreviewDesk::kiosk_of(draft)))
     return done(refusal(409, "a kiosk of the museum has the name that this draft would be tried under",
                         "give the draft, or the kiosk, another name"));
   if (auto room = site.previews().prepare(draft); !room) return done(refusal(room.error()));
   const auto laid = std::make_shared<std::optional<studio::PreviewDraft>>();
   site.studio().give(
-      [draft, laid, wish = *wish](studio::Shelf& shelf) {
-        auto draft_laid = shelf.lay_out(draft, wish.revision, wish.step);
+      [draft, laid, wanted = *wanted](studio::Shelf& shelf) {
+        auto draft_laid = shelf.lay_out(draft, wanted.revision, wanted.step);
         if (!draft_laid) return fault_answer(draft_laid.error());
         *laid = std::move(*draft_laid);
         return fresh_answer("{}");
@@ -42,10 +42,10 @@ void start_preview(GatewaySite& site, const std::string& draft, const std::strin
 }
 
 void pace_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
-  const auto wish = parse_pace(body);
-  if (!wish) return done(refusal(wish.error()));
+  const auto wanted = parse_pace(body);
+  if (!wanted) return done(refusal(wanted.error()));
   const auto done_so =
-      wish->ticks > 0 ? site.previews().step(draft, wish->ticks) : site.previews().set_pace(draft, wish->pace);
+      wanted->ticks > 0 ? site.previews().step(draft, wanted->ticks) : site.previews().set_pace(draft, wanted->pace);
   done(done_so ? looked_at(site, draft) : refusal(done_so.error()));
 }
 

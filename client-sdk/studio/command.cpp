@@ -246,13 +246,13 @@ Expected<Command> parse_command(std::string_view text) {
   return read_command(*json, "");
 }
 
-Expected<TrialWish> parse_trial(std::string_view text) {
+Expected<TrialRequest> parse_trial(std::string_view text) {
   const auto json = parse_json(text);
   if (!json) return tl::unexpected(json.error());
   CommandFields fields(*json, "");
-  TrialWish wish{fields.whole_number("revision"), fields.text_or_none("step")};
+  TrialRequest request{fields.whole_number("revision"), fields.text_or_none("step")};
   if (!fields.right()) return fields.fault();
-  return wish;
+  return request;
 }
 
 Expected<std::int64_t> parse_revision(std::string_view text) {

@@ -104,11 +104,11 @@ inline constexpr std::size_t kMostCommands = 500;
 /// One command. Errors: the same, with the field.
 [[nodiscard]] Expected<Command> parse_command(std::string_view json);
 /// {"revision": 3, "step": "use/lift"}: what is tried, and from where; no step: from the beginning. Errors: too_large, invalid_value.
-struct TrialWish {
+struct TrialRequest {
   std::int64_t revision = 0;
   std::string step;
 };
-[[nodiscard]] Expected<TrialWish> parse_trial(std::string_view json);
+[[nodiscard]] Expected<TrialRequest> parse_trial(std::string_view json);
 /// The revision of {"revision": 3}, and {"title": "..."}; `longest` in bytes. Errors: invalid_value.
 [[nodiscard]] Expected<std::int64_t> parse_revision(std::string_view json);
 [[nodiscard]] Expected<std::string> parse_stated(std::string_view json, std::string_view field, std::size_t longest);
