@@ -6,6 +6,9 @@ import { filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/file
 import { agentsOf, ruleText, stepsOf } from '../src/studio/flow';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/joint';
 import { found } from '../src/studio/palette';
+import { kGreekHelp } from '../src/studio/help/greek';
+import { docIn, labelOf, setLabel } from '../src/studio/help/labels';
+import { helpWords, kTopics, topicsAbout } from '../src/studio/help/topics';
 import { beyond, keyIn, namesFor, schemaOf, tableAt } from '../src/studio/schema';
 import { missingIn, wordGroups } from '../src/studio/texts';
 import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
@@ -174,6 +177,20 @@ it('the palette finds Greek without accents, and what begins with it first', () 
   expect(found(choices, 'μετα').map((c) => c.name)).toEqual(['Μετάβαση: DRUM', 'Αναίρεση: μετακίνηση']);
   expect(found(choices, 'drum μετ').length).toBe(1);
   expect(found(choices, '').length).toBe(3);
+});
+
+it('help has each subject in both languages, and finds it', () => {
+  for (const name of kTopics) {
+    const [here, there] = [helpWords('en').topics[name], kGreekHelp.topics[name]];
+    expect([there.how.length, there.tips?.length, there.keys?.length]).toEqual([here.how.length, here.tips?.length, here.keys?.length]);
+  }
+  expect(topicsAbout(helpWords('en'), 'Joint')[0]).toBe('joints');
+  expect(topicsAbout(kGreekHelp, 'σχοινι καστανια')).toContain('things');
+  expect(topicsAbout(kGreekHelp, 'xyz')).toEqual([]);
+  expect([labelOf('mass', 'el'), labelOf('unheard', 'el'), setLabel('trigger:2', 'en'), setLabel('odd', 'en')]).toEqual(
+    ['Μάζα', '', 'Rule 2', 'odd']);
+  expect([docIn('how hard it feels', 'el').lang, docIn('how hard it feels', 'en').lang, docIn('new', 'el').lang]).toEqual(
+    ['el', 'en', 'en']);
 });
 
 /** A gateway with one draft; `next`: what it answers instead, once each. */

@@ -74,7 +74,7 @@ const parts = {
     gateway.another([{ op: 'set', path: 'activities/use/steps/lift/trigger:1/next', value: 'nowhere' }]);
     await type('LOAD/mass', '62');
     await page.waitForSelector('dialog h2:text-is("Somebody else has edited this draft")');
-    assert.match(await page.textContent('dialog'), /nikos has changed it.*mass = 62/s);
+    assert.match(await page.textContent('dialog'), /nikos has changed it.*Mass = 62/s);
     assert.equal(await page.inputValue(field('LOAD/mass')), '62');
     await page.click('button:text-is("Apply mine to it")');
     await page.waitForSelector('dialog', { state: 'detached' });
@@ -138,6 +138,28 @@ const parts = {
     await page.keyboard.type('drum');
     await page.keyboard.press('Enter');
     await until(page, 'the drum', (s) => s.selection === 'node:DRUM');
+  },
+  async 'help stands beside the work, follows it, and is searched'() {
+    await choose('LOAD');
+    await page.keyboard.press('F1');
+    await page.waitForSelector('.beside h2:text-is("Things"):focus');
+    await page.waitForSelector('.work');
+    await go('Flow');
+    await page.waitForSelector('.beside h2:text-is("Steps")');
+    await accessible('help');
+    await page.selectOption('header select', 'el');
+    await page.fill('.beside input', 'πληκτρα');
+    await page.click('.beside nav button >> nth=0');
+    await page.waitForSelector('.beside h2:text-is("Πλήκτρα")');
+    await go('Σκηνή');
+    await choose('LOAD');
+    await page.waitForSelector('.field:has-text("πόσο σκληρό"), .field:has-text("Μάζα")');
+    await accessible('help-greek', 'dark');
+    await page.selectOption('header select', 'en');
+    await page.focus('.beside article');
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('.beside', { state: 'detached' });
+    await choose('DRUM');
   },
   async 'a body is moved by its arrow, on the grid, and by numbers'() {
     await page.click('.tools button:text-is("Move")');
