@@ -35,9 +35,36 @@ const parts = {
     await page.click('form button');
     await page.waitForSelector('h3:text-is("The catapult")');
     await accessible('exhibits');
+    await accessible('exhibits', 'dark');
+    await page.click('button:text-is("Show me how")');
+    await page.waitForSelector('.beside h2:text-is("Begin your exhibit")');
+    await page.waitForSelector('option:checked:text("A crank and a rope")', { state: 'attached' });
     await page.click('button:text-is("Continue the draft")');
     await until(page, 'the exhibit is drawn', (s) => s.complete, 60);
     assert.equal(new URL(page.url()).pathname, '/studio/my-crane');
+  },
+  async 'the tour goes on by what is done, and is taken up where it was left'() {
+    const stop = (title) => page.waitForSelector(`.beside h2:text-is("${title}")`);
+    await stop('Look at the stone');
+    await page.waitForSelector('.ring');
+    await accessible('tour');
+    await page.click('.beside button:text-is("Take me there")');
+    assert.equal(await page.evaluate(() => document.activeElement.dataset.row), 'node:LOAD');
+    await page.keyboard.press('Enter');
+    await stop('Give it its weight');
+    await page.click('.beside button:text-is("Back")');
+    await page.waitForSelector('.beside:has-text("You have done this already")');
+    await page.click('.beside button:text-is("Next")');
+    await stop('Bring in a second crank');
+    await page.click('.beside button[title="Leave the tour"]');
+    await page.waitForSelector('.beside', { state: 'detached' });
+    assert.deepEqual(JSON.parse(await page.evaluate(() => localStorage.getItem('mechane.tour'))), { at: 3, exhibit: 'my-crane' });
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('Show me how');
+    await page.keyboard.press('Enter');
+    await stop('Bring in a second crank');
+    await accessible('tour', 'dark');
+    await page.click('.beside button[title="Leave the tour"]');
   },
   async 'a click in the picture selects, an edit is one step, and is undone by key'() {
     await choose('LOAD');
@@ -66,6 +93,10 @@ const parts = {
     await page.waitForSelector('[role=alert]:has-text("666 is not one that the arm can bear")');
     assert.equal(await page.inputValue(field(stiffness)), '666');
     await accessible('refused', 'dark');
+    await page.evaluate(() => history.back());
+    await page.click('dialog:has-text("Leave this draft?") button:text-is("Stay")');
+    assert.equal(new URL(page.url()).pathname, '/studio/my-crane');
+    assert.equal(await page.inputValue(field(stiffness)), '666');
     await type(stiffness, '900');
     await page.waitForSelector('[role=alert]', { state: 'detached' });
     assert.equal(gateway.draft.bodies.find((b) => b.def === 'LOAD').sets['mechane:haptic'].children[0].value, 900);
@@ -110,6 +141,14 @@ const parts = {
     await page.waitForSelector('p:text-is("All texts that visitors need are there")');
     await page.waitForSelector('.notice', { state: 'detached' });
     await accessible('words', 'dark');
+  },
+  async 'what another author changes meanwhile is told, and shown when wanted'() {
+    await go('Scene');
+    await choose('DRUM');
+    gateway.another([{ op: 'field', node: 'DRUM', field: 'mass', value: '13' }]);
+    await page.click('.notice:has-text("nikos has changed this draft") button:text-is("Show it")');
+    await page.waitForSelector('.notice', { state: 'detached' });
+    assert.equal(await page.inputValue(field('DRUM/mass')), '13');
   },
   async 'agents are switched by step, with what is inherited beside it'() {
     await go('Flow');

@@ -73,7 +73,7 @@ export const kEnglishHelp: HelpWords = {
         'Put both things where they belong first. A joint does not follow when a thing is moved later.',
         'Press New joint. Choose what moves, then what it is held by: another thing, or the room.',
         'Choose the kind and the axis. The picture shows both while you choose; the arrow points in the positive direction.',
-        'Give the point about which it turns. “Its middle” is right for wheels and cranks.',
+        'Give the point about which it turns: “Its middle”, or “Its position”, where parts of the library have their axle.',
         'Write two stops if it must not go all the way, such as −90 and 45 for a door. Then press Add.',
       ],
       tips: ['Seen by a visitor, x goes to the right, y up, and z comes towards them: a crank that faces them turns about z.',

@@ -1,10 +1,12 @@
-// What stands beside the page: its help, which follows what the author looks at.
+// What stands beside the page: its help, which follows what the author looks at, and the tour.
+import { Tour } from '../tour/tour.svelte';
 import type { Workspace } from '../workspace.svelte';
 import { isTopic, type TopicName } from './topics';
 
 export class Guide {
   open = $state(false);
   topic = $state<TopicName>('begin');
+  readonly tour = new Tour();
   /** The draft that is open. */
   workspace = $state.raw<Workspace | null>(null);
 
@@ -12,6 +14,10 @@ export class Guide {
   noticed(target: EventTarget | null): void {
     const name = target instanceof Element ? target.closest<HTMLElement>('[data-help]')?.dataset.help : undefined;
     if (isTopic(name)) this.topic = name;
+  }
+  showTour(): void {
+    this.open = false;
+    this.tour.begin();
   }
   toggle(): void {
     this.open = !this.open;

@@ -106,6 +106,7 @@ export const kTypeLabels: Record<string, Pair> = {
   SliderJoint: ['Slider', 'Ολισθητής'],
   BallJoint: ['Ball joint', 'Σφαιρική άρθρωση'],
   Viewpoint: ['View', 'Όψη'],
+  CollidableShape: ['Shape', 'Σχήμα'],
   Inline: ['Model', 'Μοντέλο'],
   'simulation.grasp': ['A hand takes', 'Χέρι που πιάνει'],
   'simulation.turned': ['Turns are counted', 'Μέτρηση στροφών'],
