@@ -9,7 +9,13 @@ import { isOrdered, orderCommands } from '../src/studio/order';
 import { found } from '../src/studio/palette';
 import { addAnswer, addQuestion, freeQuestion, isPlainName, isTakenQuestion, questionsOf, removeAnswer, removeQuestion, renameAnswer,
   setCorrect, setKind, type Question } from '../src/studio/questions';
+import { kGreekHelp } from '../src/studio/help/greek';
+import { docIn, labelOf, setLabel } from '../src/studio/help/labels';
+import { helpWords, kTopics, topicsAbout } from '../src/studio/help/topics';
 import { beyond, keyIn, namesFor, schemaOf, tableAt } from '../src/studio/schema';
+import { crankOf, isDone, kStops, targetOf } from '../src/studio/tour/stops';
+import { tourWords } from '../src/studio/tour/words';
+import type { Workspace } from '../src/studio/workspace.svelte';
 import { missingIn, wordGroups } from '../src/studio/texts';
 import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
 import { childSets, freePlace, metaAt, stringAt, viewOf, libraryOf, versionsOf, type View } from '../src/studio/view';
@@ -187,6 +193,37 @@ it('the palette finds Greek without accents, and what begins with it first', () 
   expect(found(choices, '').length).toBe(3);
 });
 
+it('help has each subject in both languages, and finds it', () => {
+  for (const name of kTopics) {
+    const [here, there] = [helpWords('en').topics[name], kGreekHelp.topics[name]];
+    expect([there.how.length, there.tips?.length, there.keys?.length]).toEqual([here.how.length, here.tips?.length, here.keys?.length]);
+  }
+  expect(topicsAbout(helpWords('en'), 'Joint')[0]).toBe('joints');
+  expect(topicsAbout(kGreekHelp, 'σχοινι καστανια')).toContain('things');
+  expect(topicsAbout(kGreekHelp, 'xyz')).toEqual([]);
+  expect([labelOf('mass', 'el'), labelOf('unheard', 'el'), setLabel('trigger:2', 'en'), setLabel('odd', 'en')]).toEqual(
+    ['Μάζα', '', 'Rule 2', 'odd']);
+  expect([docIn('how hard it feels', 'el').lang, docIn('how hard it feels', 'en').lang, docIn('new', 'el').lang]).toEqual(
+    ['el', 'en', 'en']);
+});
+
+it('a stop of the tour is done when the draft says so, and points at what is there', () => {
+  vi.stubGlobal('CSS', { escape: (name: string) => name });
+  const body = (def: string, x: number, fields = {}) => ({ def, pose: [x, 0.9, 0, 0, 0, 0, 1], fields });
+  const ws = (bodies: ReturnType<typeof body>[], more: object = {}) => ({ part: 'scene', selection: 'path:', joint: null, published: 0, page: { code: 'en' },
+    state: {}, view: view({ bodies, outline: bodies, ...more }) }) as unknown as Workspace;
+  const first = ws([body('LOAD', 0, { mass: '10' })]);
+  expect(kStops.slice(0, 5).map((stop) => isDone(stop, first))).toEqual([true, false, false, false, false]);
+  const later = ws([body('LOAD', 0, { mass: '15' }), body('CRANK', 0.7)], { joints: [{ def: 'JOINT_1', body2: 'CRANK', fields: {} }] });
+  expect(crankOf(later.view)).toBe('CRANK');
+  expect(kStops.slice(2, 8).map((stop) => isDone(stop, later))).toEqual([true, true, true, true, false, false]);
+  expect(targetOf('make', null)).toBe('[data-tour="new"]');
+  expect(targetOf('words', { ...later, state: { view: later.view } } as unknown as Workspace)).toBe('[data-part="words"]');
+  for (const language of ['el', 'en'] as const)
+    expect(kStops.every((stop) => Object.values(tourWords(language).stops[stop]).every((said) => said !== ''))).toBe(true);
+  vi.unstubAllGlobals();
+});
+
 /** A gateway with one draft; `next`: what it answers instead, once each. */
 class Gateway implements DraftRequests {
   revision = 3;
@@ -263,6 +300,24 @@ it('another’s edit is shown, and one’s own waits until it is wanted', async 
   draft.dropMine();
   expect(await more).toBe('dropped');
   expect(state()).toMatchObject({ conflict: null, waiting: 0 });
+});
+
+it('what somebody else has changed is told, and shown when it is wanted', async () => {
+  const { gateway, draft, state } = await begun();
+  await draft.look();
+  expect(state()).toMatchObject({ theirs: null });
+  gateway.take('nikos');
+  await draft.look();
+  expect(state()).toMatchObject({ theirs: { by: 'nikos', revision: 4 }, view: { revision: 3 } });
+  draft.showTheirs();
+  expect(state()).toMatchObject({ theirs: null, view: { revision: 4 } });
+  gateway.take('nikos');
+  await draft.look();
+  const mine = draft.edit(edit('a'));
+  await vi.waitFor(() => expect(state().conflict?.by).toBe('nikos'));
+  expect(state().theirs).toBeNull();
+  draft.dropMine();
+  await mine;
 });
 
 it('while the gateway is away edits wait, and one whose answer was lost is not made twice', async () => {

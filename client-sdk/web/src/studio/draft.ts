@@ -19,6 +19,8 @@ export interface Refusal {
 }
 export interface DraftState {
   view: View | null;
+  /** What somebody else has made of it meanwhile, while nothing of one's own waits; null: nothing. */
+  theirs: View | null;
   /** Edits that are not stored yet. */
   waiting: number;
   away: boolean;
@@ -40,7 +42,7 @@ interface Waiting {
 }
 
 export class Draft {
-  state: DraftState = { view: null, waiting: 0, away: false, signedOut: false, conflict: null, refusals: {} };
+  state: DraftState = { view: null, theirs: null, waiting: 0, away: false, signedOut: false, conflict: null, refusals: {} };
   private queue: Waiting[] = [];
   private running = false;
   private again: ReturnType<typeof setTimeout> | undefined;
@@ -98,6 +100,16 @@ export class Draft {
     const theirs = await this.requests.view().catch(() => null);  // the next look finds out why
     if (theirs && this.queue.length === 0 && theirs.revision > (this.state.view?.revision ?? 0)) this.put({ view: theirs });
   }
+  /** Finds out whether somebody else has changed it. */
+  async look(): Promise<void> {
+    const { view, conflict, signedOut, away } = this.state;
+    if (!view || conflict || signedOut || away || this.queue.length > 0) return;
+    const theirs = await this.requests.view().catch(() => null);  // an edit finds out why
+    if (theirs && this.queue.length === 0) this.put({ theirs });
+  }
+  showTheirs(): void {
+    if (this.state.theirs) this.put({ view: this.state.theirs });
+  }
   /** After a conflict: one's own edits, upon the other's. */
   applyAgain(): void {
     this.put({ conflict: null });
@@ -114,7 +126,9 @@ export class Draft {
   }
 
   private put(some: Partial<DraftState>): void {
-    this.state = { ...this.state, ...some, waiting: this.queue.length };
+    const next = { ...this.state, ...some, waiting: this.queue.length };
+    const isNews = next.theirs !== null && next.theirs.revision > (next.view?.revision ?? 0);
+    this.state = { ...next, theirs: isNews ? next.theirs : null };
     this.changed(this.state);
   }
   private give(order: Order): Promise<Outcome> {

@@ -6,7 +6,7 @@ export interface Choice {
 }
 
 /** Without accents and capitals: a Greek writer in a hurry leaves accents out. */
-const plain = (words: string): string => words.normalize('NFD').replace(/\p{M}/gu, '').toLowerCase();
+export const plain = (words: string): string => words.normalize('NFD').replace(/\p{M}/gu, '').toLowerCase();
 
 /** All that have each written word; those that begin with it first. */
 export function found(choices: readonly Choice[], query: string): Choice[] {

@@ -10,6 +10,8 @@ export interface WordRow {
   words: Record<string, string>;
   /** Languages in which it must not be empty, and is. */
   missing: string[];
+  /** Visitors can do without it. */
+  optional: boolean;
 }
 export interface WordGroup {
   /** What the words belong to: a path, or a DEF. */
@@ -35,9 +37,9 @@ function groupOf(kind: WordGroup['kind'], owner: string, name: string, set: Meta
   }
   const rows = [...known].map(([what, given]) => {
     const words = Object.fromEntries(languages.map((code) => [code, given[code] ?? '']));
-    const needed = (kNeeded.includes(what) && kind !== 'body') || what.startsWith('answer:') ||
-      languages.some((code) => words[code] !== '');
-    return { path, what, words, missing: needed ? languages.filter((code) => words[code]!.trim() === '') : [] };
+    const optional = (!kNeeded.includes(what) || kind === 'body') && !what.startsWith('answer:');
+    const needed = !optional || languages.some((code) => words[code] !== '');
+    return { path, what, words, optional, missing: needed ? languages.filter((code) => words[code]!.trim() === '') : [] };
   });
   return { owner, kind, name, rows };
 }

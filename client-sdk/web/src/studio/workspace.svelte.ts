@@ -25,7 +25,7 @@ export class Workspace {
   readonly draft: Draft;
   readonly requests: ReturnType<typeof studio>;
   readonly preview: PreviewDesk;
-  state = $state.raw<DraftState>({ view: null, waiting: 0, away: false, signedOut: false, conflict: null, refusals: {} });
+  state = $state.raw<DraftState>({ view: null, theirs: null, waiting: 0, away: false, signedOut: false, conflict: null, refusals: {} });
   schema = $state.raw<Schema | null>(null);
   selection = $state(pathId(''));
   part = $state<PartName>('scene');
@@ -35,6 +35,8 @@ export class Workspace {
   typed = $state<Record<string, string>>({});
   /** The field that gets the focus once it is there. */
   wanted = $state('');
+  /** How often it was published from here. */
+  published = $state(0);
   /** The joint in the making. */
   joint = $state<JointPlan | null>(null);
   /** Rules that lead from a step to the one after it do so in a new order, too. */

@@ -48,9 +48,38 @@ const parts = {
     await page.waitForSelector('.saved');
     assert.equal(gateway.asked.at(-1).path, '/api/studio/drafts/my-crane/import');
     await page.click('header button:has-text("All exhibits")');
+    await accessible('exhibits', 'dark');
+    await page.click('button:text-is("Show me how")');
+    await page.waitForSelector('.beside h2:text-is("Begin your exhibit")');
+    assert.equal(await page.inputValue('form.card select'), 'template:crank-and-rope');
     await page.click('button:text-is("Continue the draft")');
     await until(page, 'the exhibit is drawn', (s) => s.complete, 60);
     assert.equal(new URL(page.url()).pathname, '/studio/my-crane');
+  },
+  async 'the tour goes on by what is done, and is taken up where it was left'() {
+    const stop = (title) => page.waitForSelector(`.beside h2:text-is("${title}")`);
+    await stop('Look at the stone');
+    await page.waitForSelector('.ring');
+    await accessible('tour');
+    await page.click('.beside button:text-is("Take me there")');
+    assert.equal(await page.evaluate(() => document.activeElement.dataset.row), 'node:LOAD');
+    await page.keyboard.press('Enter');
+    // This stone has its weight already.
+    await stop('Bring in a second crank');
+    await page.click('.beside button:text-is("Back")');
+    await stop('Give it its weight');
+    await page.waitForSelector('.beside:has-text("You have done this already")');
+    await page.click('.beside button:text-is("Next")');
+    await stop('Bring in a second crank');
+    await page.click('.beside button[title="Leave the tour"]');
+    await page.waitForSelector('.beside', { state: 'detached' });
+    assert.deepEqual(JSON.parse(await page.evaluate(() => localStorage.getItem('mechane.tour'))), { at: 3, exhibit: 'my-crane' });
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('Show me how');
+    await page.keyboard.press('Enter');
+    await stop('Bring in a second crank');
+    await accessible('tour', 'dark');
+    await page.click('.beside button[title="Leave the tour"]');
   },
   async 'a click in the picture selects, an edit is one step, and is undone by key'() {
     await choose('LOAD');
@@ -79,6 +108,10 @@ const parts = {
     await page.waitForSelector('[role=alert]:has-text("666 is not one that the arm can bear")');
     assert.equal(await page.inputValue(field(stiffness)), '666');
     await accessible('refused', 'dark');
+    await page.evaluate(() => history.back());
+    await page.click('dialog:has-text("Leave this draft?") button:text-is("Stay")');
+    assert.equal(new URL(page.url()).pathname, '/studio/my-crane');
+    assert.equal(await page.inputValue(field(stiffness)), '666');
     await type(stiffness, '900');
     await page.waitForSelector('[role=alert]', { state: 'detached' });
     assert.equal(gateway.draft.bodies.find((b) => b.def === 'LOAD').sets['mechane:haptic'].children[0].value, 900);
@@ -87,7 +120,7 @@ const parts = {
     gateway.another([{ op: 'set', path: 'activities/use/steps/lift/trigger:1/next', value: 'nowhere' }]);
     await type('LOAD/mass', '62');
     await page.waitForSelector('dialog h2:text-is("Somebody else has edited this draft")');
-    assert.match(await page.textContent('dialog'), /nikos has changed it.*mass = 62/s);
+    assert.match(await page.textContent('dialog'), /nikos has changed it.*Mass = 62/s);
     assert.equal(await page.inputValue(field('LOAD/mass')), '62');
     await page.click('button:text-is("Apply mine to it")');
     await page.waitForSelector('dialog', { state: 'detached' });
@@ -123,6 +156,15 @@ const parts = {
     await page.waitForSelector('p:text-is("All texts that visitors need are there")');
     await page.waitForSelector('.notice', { state: 'detached' });
     await accessible('words', 'dark');
+  },
+  async 'what another author changes meanwhile is told, and shown when wanted'() {
+    await go('Scene');
+    await choose('DRUM');
+    gateway.another([{ op: 'field', node: 'DRUM', field: 'mass', value: '13' }]);
+    await page.evaluate(() => window.dispatchEvent(new Event('focus')));
+    await page.click('.notice:has-text("nikos has changed this draft") button:text-is("Show it")');
+    await page.waitForSelector('.notice', { state: 'detached' });
+    assert.equal(await page.inputValue(field('DRUM/mass')), '13');
   },
   async 'agents are switched by step, with what is inherited beside it'() {
     await go('Flow');
@@ -212,6 +254,28 @@ const parts = {
     await page.keyboard.type('drum');
     await page.keyboard.press('Enter');
     await until(page, 'the drum', (s) => s.selection === 'node:DRUM');
+  },
+  async 'help stands beside the work, follows it, and is searched'() {
+    await choose('LOAD');
+    await page.keyboard.press('F1');
+    await page.waitForSelector('.beside h2:text-is("Things"):focus');
+    await page.waitForSelector('.work');
+    await go('Flow');
+    await page.waitForSelector('.beside h2:text-is("Steps")');
+    await accessible('help');
+    await page.selectOption('header select', 'el');
+    await page.fill('.beside input', 'πληκτρα');
+    await page.click('.beside nav button >> nth=0');
+    await page.waitForSelector('.beside h2:text-is("Πλήκτρα")');
+    await go('Σκηνή');
+    await choose('LOAD');
+    await page.waitForSelector('.field:has-text("πόσο σκληρό"), .field:has-text("Μάζα")');
+    await accessible('help-greek', 'dark');
+    await page.selectOption('header select', 'en');
+    await page.focus('.beside article');
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('.beside', { state: 'detached' });
+    await choose('DRUM');
   },
   async 'a body is moved by its arrow, on the grid, and by numbers'() {
     await page.click('.tools button:text-is("Move")');

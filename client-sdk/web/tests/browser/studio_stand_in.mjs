@@ -353,7 +353,8 @@ export class StudioStandIn extends StandIn {
       exhibits: [{ name: 'my-crane', title: { el: 'Ο γερανός', en: 'The crane' }, draft: { revision: 3, by: 'eleni',
         changed_s: 1764340000, problems: 0 } },
         { name: 'catapult', title: { el: 'Ο καταπέλτης', en: 'The catapult' }, draft: null }],
-      templates: [{ name: 'empty', title: { el: 'Κενό', en: 'Empty' } }] }];
+      templates: [{ name: 'empty', title: { el: 'Κενό', en: 'Empty' } },
+        { name: 'crank-and-rope', title: { el: 'Μανιβέλα και σχοινί', en: 'A crank and a rope' } }] }];
     if (path === '/api/studio/drafts') return [200, this.view()];
     if (rest === '') return [200, this.view()];
     if (rest === '/export') return [200, { an: 'archive' }];
