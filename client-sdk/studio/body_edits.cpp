@@ -352,6 +352,17 @@ Expected<std::string> with_own_set(const Document& document, const std::string& 
   for (const NodeId child : document.child_elements(owner)) {
     if (document[child].name != "MetadataSet" || document.container_field(child, "metadata") != "metadata") continue;
     const NodeId into = document.resolve(child);
+    if (x3d::name_of(document, into).starts_with("mechane:")) {
+      // A node has one field for metadata: a set around both.
+      const std::string margin = authoring::inner_margin_of(document, owner);
+      edits.insert(document[child].span.begin,
+                   "<MetadataSet containerField='metadata' name='mechane'>" + margin + "  ");
+      authoring::set_attribute(document, child, "containerField", "value", edits);
+      edits.insert(document[child].span.end,
+                   fmt::format("{0}  <MetadataSet containerField='value' name='{1}'></MetadataSet>{0}</MetadataSet>",
+                               margin, name));
+      return edits.apply(document.source());
+    }
     authoring::append_inside(document, into,
                              fmt::format("{}<MetadataSet containerField='value' name='{}'></MetadataSet>",
                                          authoring::inner_margin_of(document, into), name),

@@ -198,6 +198,14 @@ TEST(Commands, ABodyGetsItsFirstSet) {
   text = changed(text, {R"({"op": "set", "path": "POST/mechane:body/collides", "value": false})",
                         R"({"op": "set", "path": "POST/mechane:haptic/staticFriction", "value": 0.7})"});
   EXPECT_EQ(errors_in(text), 0U);
+  x3d::Problems problems("crane");
+  const auto document = x3d::read_document(text, shipped_file(), problems);
+  ASSERT_TRUE(document);
+  const auto haptic = x3d::read_metadata(*document, document->find_def("POST"), "mechane:haptic", problems);
+  const auto body = x3d::read_metadata(*document, document->find_def("POST"), "mechane:body", problems);
+  ASSERT_TRUE(haptic && body);
+  EXPECT_EQ(haptic->find("mechane:body"), nullptr) << "the sets stand side by side";
+  EXPECT_NE(haptic->find("staticFriction"), nullptr);
 }
 
 TEST(Commands, PartsGetNamesOfTheirOwn) {
