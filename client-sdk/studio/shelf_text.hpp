@@ -1,0 +1,37 @@
+// What the files shelf*.cpp share. For them only.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "client-sdk/studio/shelf_fault.hpp"
+
+namespace mechane::studio {
+
+using ShelfJson = nlohmann::json;
+
+/// What a draft begins as, before the exhibit's name.
+inline constexpr std::string_view kFromExhibit = "exhibit:";
+
+[[nodiscard]] inline std::string shelf_text(const ShelfJson& json) {
+  return json.dump(-1, ' ', false, ShelfJson::error_handler_t::replace);
+}
+
+[[nodiscard]] inline tl::unexpected<ShelfFault> shelf_fault(Error error) {
+  return tl::unexpected(ShelfFault{std::move(error)});
+}
+
+[[nodiscard]] inline tl::unexpected<ShelfFault> bad_exhibit_name() {
+  return shelf_fault({ErrorCode::invalid_value, "this cannot be an exhibit's name", "",
+                      "take 1 to 31 of the letters a-z, digits and '-', with a letter or digit first"});
+}
+
+/// As an exhibit of another name than it had: a server cannot have two with one id.
+[[nodiscard]] Expected<std::string> text_named(std::string_view text, const std::string& was, const std::string& name,
+                                               const std::filesystem::path& file);
+
+}  // namespace mechane::studio
