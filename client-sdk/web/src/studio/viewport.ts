@@ -114,9 +114,8 @@ export class Viewport {
 
   show(state: KioskState): void {
     this.state = state;
-    this.held = null;
     this.picture.set(state);
-    this.renew();
+    this.letGo();
   }
   /** By its DEF; "": nothing. */
   select(name: string): void {
@@ -130,9 +129,9 @@ export class Viewport {
     this.gizmo.setRotationSnap(snap ? kKeyTurn : null);
     this.need();
   }
-  /** The gateway did not take the last move. */
+  /** The last move is taken, or is not. One that has begun since goes on. */
   letGo(): void {
-    this.held = null;
+    if (!this.gizmo.dragging) this.held = null;
     this.renew();
   }
   resize(width: number, height: number): void {

@@ -4,8 +4,7 @@
 import { gzipSync } from 'node:zlib';
 import { openBrowser, until } from './page.mjs';
 
-const kDrags = 6;
-const kMovesOfADrag = 40;
+const kMoves = 240;
 const [origin, user, password, draft, body, edits, picture] = process.argv.slice(2);
 const { browser, page, errors } = await openBrowser({ viewport: { width: 1280, height: 720 }, locale: 'en-GB' });
 
@@ -27,33 +26,28 @@ async function load() {
   return { load_s: seen_ms / 1000, gzip_kb: kb((bytes) => gzipSync(bytes).length), app_kb: kb((bytes) => bytes.length) };
 }
 /** The page's listeners run before this one, so that what it asks to be drawn is drawn when this one's turn comes. */
-function listen() {
+function listen(before) {
   window.drags_ms = [];
-  window.addEventListener('pointermove', ({ timeStamp, buttons }) => {
-    if (buttons === 1) requestAnimationFrame(() => window.drags_ms.push(performance.now() - timeStamp));
-  });
+  window.addEventListener('pointermove', ({ timeStamp }) =>
+    requestAnimationFrame(() => window.drags_ms.push(performance.now() - timeStamp)));
+  window.taken = new Promise((done, fail) => window.addEventListener('pointerup', ({ timeStamp }) => {
+    setTimeout(() => fail(new Error('the drag has no answer')), 20_000);
+    const look = () => (window.mechane.look().revision > before ? done(performance.now() - timeStamp) : requestAnimationFrame(look));
+    look();
+  }, { once: true }));
 }
 async function drag() {
   await page.click(`[role=treeitem]:has(.name:text-is("${body}"))`);
   await page.click('.tools button:text-is("Move")');
-  await page.evaluate(listen);
-  const drops_ms = [];
-  for (let k = 0; k < kDrags; ++k) {
-    const { selectedAt, revision } = await until(page, 'the body is to be seen', (s) => s.outlined && s.selectedAt);
-    const { x, y } = await page.locator('canvas').boundingBox();
-    const [left, top] = [x + selectedAt.x, y + selectedAt.y];
-    await page.mouse.move(left, top);
-    await page.mouse.down();
-    await page.mouse.move(left + (k % 2 === 0 ? 60 : -60), top, { steps: kMovesOfADrag });
-    const taken = page.evaluate((before) => new Promise((done) => {
-      const look = () => (window.mechane.look().revision > before ? done(performance.now() - from) : requestAnimationFrame(look));
-      let from = 0;
-      window.addEventListener('pointerup', ({ timeStamp }) => ((from = timeStamp), look()), { once: true, capture: true });
-    }), revision);
-    await page.mouse.up();
-    drops_ms.push(await taken);
-  }
-  return { drags_ms: await page.evaluate(() => window.drags_ms), drops_ms };
+  const { selectedAt, revision } = await until(page, 'the body is to be seen', (s) => s.outlined && s.selectedAt);
+  const { x, y } = await page.locator('canvas').boundingBox();
+  const [left, top] = [x + selectedAt.x, y + selectedAt.y];
+  await page.mouse.move(left, top);
+  await page.mouse.down();
+  await page.evaluate(listen, revision);
+  for (let k = 1; k <= kMoves; ++k) await page.mouse.move(left + 60 * Math.sin(k / 40), top);
+  await page.mouse.up();
+  return page.evaluate(async () => ({ drags_ms: window.drags_ms, drop_ms: await window.taken }));
 }
 async function heap_mib() {
   const session = await page.context().newCDPSession(page);
