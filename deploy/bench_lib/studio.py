@@ -112,6 +112,10 @@ def timed(call, *arguments):
     return time.monotonic() - begun, answer
 
 
+def quantiles(name: str, values: list[float], high: str, share: float) -> dict[str, float]:
+    return {f"{name}.median": quantile(values, 0.5), f"{name}.{high}": quantile(values, share), f"{name}.max": max(values)}
+
+
 def measure_edits(context) -> Measured:
     """Each edit is checked whole, written to disk, and answered with the draft as it is then."""
     with running(context) as gateway:
@@ -126,7 +130,7 @@ def measure_edits(context) -> Measured:
         after = gateway.memory_mib()
     result = Measured({"check.nodes": float(count), "memory.gateway_mib": after, "memory.gateway_mib.grown": after - before})
     for name, values in (("check_ms", edits_s), ("view_ms", views_s)):
-        result.metrics |= {f"{name}.{word}": 1000 * quantile(values, share) for word, share in (("median", 0.5), ("p99", 0.99), ("max", 1.0))}
+        result.metrics |= quantiles(name, [1000 * value for value in values], "p99", 0.99)
         result.curves[name] = tail(values)
     result.metrics["check_ratio.median"] = result.metrics["check_ms.median"] / result.metrics["view_ms.median"]
     return result
@@ -149,7 +153,7 @@ def measure_page(context) -> Measured:
     result = Measured({"bundle_kb.gzip": seen["gzip_kb"], "bundle_kb": seen["app_kb"], "load_s": seen["load_s"],
                        "memory.page_mib": seen["after_mib"], "memory.page_mib.grown": seen["after_mib"] - seen["before_mib"]},
                       notes=["Chromium draws by the processor, 1280x720"])
-    result.metrics |= {f"drag_ms.{word}": quantile(seen["drags_ms"], share) for word, share in (("median", 0.5), ("p95", 0.95), ("max", 1.0))}
+    result.metrics |= quantiles("drag_ms", seen["drags_ms"], "p95", 0.95)
     result.metrics["drop_ms"] = seen["drop_ms"]
     result.curves["drag_ms"] = tail([value / 1000 for value in seen["drags_ms"]])
     return result
@@ -165,5 +169,6 @@ def plot(result: Measured, out: Path, machine: str) -> list[Path]:
     found = {label: result.curves[name] for label, name in series.items() if name in result.curves}
     if not found:
         return []
-    tails(out / "studio.svg", "What an author waits for", f"{NODES} nodes and more; a drag in Chromium without a graphics card. {machine}", found)
+    tails(out / "studio.svg", "What an author waits for",
+          f"{NODES} nodes and more; a drag in Chromium without a graphics card. {machine}", found)
     return [out / "studio.svg"]

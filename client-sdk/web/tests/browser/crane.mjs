@@ -1,6 +1,6 @@
-// crane.mjs ORIGIN PASSWORD NAME [FOLDER]: an author makes a crane at a real gateway by the studio's page alone, from an empty exhibit: parts,
-// a joint, a rope, a quantity, words, a rule, a scripted visit. The draft is tried, its crank is turned with a finger until the step is
-// over, and it is published. With FOLDER, pictures are written there.
+// crane.mjs ORIGIN PASSWORD NAME [FOLDER]: an author makes a crane at a real gateway by the studio's page alone, from an empty exhibit:
+// parts, a joint, a rope, a quantity, words, a rule, a scripted visit. The draft is tried, its crank is turned with a finger until the step
+// is over, and it is published. With FOLDER, pictures are written there.
 import assert from 'node:assert/strict';
 import { Finger, openBrowser, take, until } from './page.mjs';
 

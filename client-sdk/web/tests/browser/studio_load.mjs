@@ -1,6 +1,6 @@
-// studio_load.mjs ORIGIN USER PASSWORD DRAFT BODY EDITS [PICTURE.png]: how long the studio takes from a browser that knows nothing until DRAFT
-// is seen, what a drag of BODY takes from the pointer's event until its picture is submitted, and what EDITS edits leave in the page's
-// memory. One JSON object.
+// studio_load.mjs ORIGIN USER PASSWORD DRAFT BODY EDITS [PICTURE.png]: how long the studio takes from a browser that knows nothing until
+// DRAFT is seen, what a drag of BODY takes from the pointer's event until its picture is submitted, and what EDITS edits leave in the
+// page's memory. One JSON object.
 import { gzipSync } from 'node:zlib';
 import { openBrowser, until } from './page.mjs';
 
