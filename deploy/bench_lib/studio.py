@@ -24,6 +24,7 @@ AIMS = {
 }
 NODES = 500
 EDITS = 1000
+PAUSE_S = 0.1  # of one who edits fast; without it the gateway would soon say that there are too many requests
 DRAFTS = "/api/studio/drafts"
 TEMPLATE = "crank-and-rope"  # what a first draft begins from
 BODY = "LOAD"
@@ -127,6 +128,7 @@ def measure_edits(context) -> Measured:
             seconds, draft = timed(author.post, f"{DRAFTS}/many/commands", {"revision": draft["revision"], "commands": [edit]})
             edits_s.append(seconds)
             views_s.append(timed(author.get, f"{DRAFTS}/many")[0])
+            time.sleep(PAUSE_S)
         after = gateway.memory_mib()
     result = Measured({"check.nodes": float(count), "memory.gateway_mib": after, "memory.gateway_mib.grown": after - before})
     for name, values in (("check_ms", edits_s), ("view_ms", views_s)):
