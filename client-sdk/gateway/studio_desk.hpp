@@ -32,7 +32,7 @@ class StudioDesk {
   void give(Work work, Site::Done done);
 
  private:
-  std::unique_ptr<studio::Shelf> shelf_;  ///< the thread's; null: there is none
+  std::unique_ptr<studio::Shelf> shelf_;  ///< for the work on the thread; null: no folder of exhibits was given
   const Post post_;
   std::size_t waiting_ = 0;          ///< for the loop's thread
   Worker thread_{"gateway-studio"};  ///< last: it ends before what it uses

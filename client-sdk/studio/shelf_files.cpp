@@ -22,13 +22,6 @@ constexpr std::size_t kMostNodes = 200;
 constexpr std::string_view kIncoming = ".incoming";
 constexpr std::string_view kFromDraft = "draft:";
 
-ShelfJson json_of(const std::vector<FileUse>& uses) {
-  ShelfJson list = ShelfJson::array();
-  for (const FileUse& use : uses)
-    list.push_back({{"place", use.place}, {"line", use.line}});
-  return list;
-}
-
 ShelfJson json_of(const std::vector<authoring::MergeNote>& notes) {
   ShelfJson list = ShelfJson::array();
   for (const authoring::MergeNote& note : notes)

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -28,6 +29,13 @@ inline constexpr std::string_view kFromExhibit = "exhibit:";
 [[nodiscard]] inline tl::unexpected<ShelfFault> bad_exhibit_name() {
   return shelf_fault({ErrorCode::invalid_value, "this cannot be an exhibit's name", "",
                       "take 1 to 31 of the letters a-z, digits and '-', with a letter or digit first"});
+}
+
+[[nodiscard]] inline ShelfJson json_of(const std::vector<FileUse>& uses) {
+  ShelfJson list = ShelfJson::array();
+  for (const FileUse& use : uses)
+    list.push_back({{"place", use.place}, {"line", use.line}});
+  return list;
 }
 
 /// As an exhibit of another name than it had: a server cannot have two with one id.

@@ -18,7 +18,7 @@ from statistics import median
 
 from peers import Measured, Missing
 from plots import bars, lines, tails
-from running import Programs, stop
+from running import Programs, memory_mib, stop
 
 AIMS = {
     "first_load.gzip_kb": (("under", 1024),),
@@ -62,7 +62,18 @@ class Running:
         self.path = f"/ws/kiosk/{KIOSK}?token={self.token}"
 
     def memory_mib(self) -> float:
-        return int(re.search(r"^RssAnon:\s+(\d+) kB", Path(f"/proc/{self.pid}/status").read_text(), re.MULTILINE).group(1)) / 1024
+        return memory_mib(self.pid)
+
+
+def start_gateway(programs: Programs, *arguments) -> tuple[subprocess.Popen, str]:
+    """A gateway, once it is ready, and what it has said; its state is in a folder beside its log."""
+    gateway = programs.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--state", programs.out / "state", *arguments)
+    log, end = programs.out / "gateway.log", time.monotonic() + 60
+    while "\nready" not in log.read_text():
+        if gateway.poll() is not None or time.monotonic() > end:
+            raise Missing(f"mechane-gateway did not start: {log.read_text()[-400:]}")
+        time.sleep(0.05)
+    return gateway, log.read_text()
 
 
 @contextlib.contextmanager
@@ -77,13 +88,7 @@ def running(context, scenario: Path, name: str):
     try:
         programs.start("server", "server", "--scenario", scenario, "--worlds", 1, "--records", "")
         programs.wait_ready()
-        gateway = programs.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--kiosk", KIOSK, "--state", folder / "state")
-        log, end = folder / "gateway.log", time.monotonic() + 60
-        while "\nready" not in log.read_text():
-            if gateway.poll() is not None or time.monotonic() > end:
-                raise Missing(f"mechane-gateway did not start: {log.read_text()[-400:]}")
-            time.sleep(0.05)
-        yield Running(programs, gateway, log.read_text())
+        yield Running(programs, *start_gateway(programs, "--kiosk", KIOSK))
     finally:
         programs.stop_all()
         shutil.rmtree(folder / "state", ignore_errors=True)

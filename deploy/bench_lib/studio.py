@@ -11,10 +11,10 @@ import subprocess
 import time
 from pathlib import Path
 
-from gateway import measured_parts, quantile, tail
+from gateway import measured_parts, quantile, start_gateway, tail
 from peers import Measured, Missing
 from plots import tails
-from running import Programs
+from running import Programs, memory_mib
 
 AIMS = {
     "bundle_kb.gzip": (("under", 1024),),
@@ -62,7 +62,7 @@ class Running:
         self.author = Author(self.port, self.user, self.password)
 
     def memory_mib(self) -> float:
-        return int(re.search(r"^RssAnon:\s+(\d+) kB", Path(f"/proc/{self.pid}/status").read_text(), re.MULTILINE).group(1)) / 1024
+        return memory_mib(self.pid)
 
 
 @contextlib.contextmanager
@@ -74,14 +74,7 @@ def running(context):
     (folder / "scenarios").mkdir(parents=True)
     programs = Programs("bench", context.bin, folder)
     try:
-        gateway = programs.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--state", folder / "state", "--scenarios",
-                                 folder / "scenarios")
-        log, end = folder / "gateway.log", time.monotonic() + 60
-        while "\nready" not in log.read_text():
-            if gateway.poll() is not None or time.monotonic() > end:
-                raise Missing(f"mechane-gateway did not start: {log.read_text()[-400:]}")
-            time.sleep(0.05)
-        yield Running(gateway, log.read_text())
+        yield Running(*start_gateway(programs, "--scenarios", folder / "scenarios"))
     finally:
         programs.stop_all()
         shutil.rmtree(folder / "state", ignore_errors=True)

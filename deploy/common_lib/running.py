@@ -1,6 +1,7 @@
 """Starts and stops Mechane's programs, on a DDS network of their own."""
 
 import os
+import re
 import subprocess
 import sys
 import time
@@ -24,6 +25,15 @@ def stop(process: subprocess.Popen, limit_s: float = 10) -> int | None:
         process.kill()
         process.wait()
         return None
+
+
+def memory_mib(pid: int) -> float | None:
+    """What a process holds that is its own: files that are mapped come and go with the system's cache. None where it has ended."""
+    try:
+        found = re.search(r"^RssAnon:\s+(\d+) kB", Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)
+    except OSError:
+        return None
+    return int(found.group(1)) / 1024 if found else None
 
 
 class Programs:

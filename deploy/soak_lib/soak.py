@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common_lib"))
 from growth import LEAST_GROWTH_MIB, LIMIT_MIB_PER_H, growth_of  # noqa: E402
-from running import ROOT, Programs  # noqa: E402
+from running import ROOT, Programs, memory_mib  # noqa: E402
 
 SCREW, ODOMETER, VILLAGE = (ROOT / f"scenarios/{name}/{name}.x3d" for name in ("archimedes-screw", "odometer", "village"))
 EXHIBITS = (SCREW, ODOMETER)
@@ -19,15 +19,6 @@ SAMPLE_EVERY_S = 2
 VISIT_LIMIT_S = 300
 STOP_LIMIT_S = 30
 GATEWAY_LIMIT_S = 60
-
-
-def memory_mib(pid: int) -> float | None:
-    """What a process holds that is its own: files that are mapped come and go with the system's cache. None where it has ended."""
-    try:
-        found = re.search(r"^RssAnon:\s+(\d+) kB", Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)
-    except OSError:
-        return None
-    return int(found.group(1)) / 1024 if found else None
 
 
 class Soak(Programs):

@@ -83,7 +83,8 @@ struct DayCount {
   std::size_t visits = 0;
   std::size_t done = 0;
 };
-/// Each day of this machine's time zone from that of the first minute to that of the last one, those without a visit too. Visits outside do not count.
+/// Each day of this machine's time zone from that of the first minute to that of the last one, those without a visit too. Visits outside
+/// do not count.
 [[nodiscard]] std::vector<DayCount> count_days(std::span<const VisitRecord> records, std::int64_t first_minute,
                                                std::int64_t last_minute);
 

@@ -23,9 +23,9 @@ using test::shipped_file;
 using test::source_folder;
 using test::text_of;
 
-Command command_of(const std::string& json) {
-  auto command = parse_command(json);
-  EXPECT_TRUE(command) << json << ": " << command.error().to_string();
+Command command_of(const std::string& request) {
+  auto command = parse_command(request);
+  EXPECT_TRUE(command) << request << ": " << command.error().to_string();
   return command.value_or(RemoveEntry{});
 }
 
@@ -412,11 +412,11 @@ TEST(Commands, FaultyRequestsNameThePlace) {
       {"", ""},
       {"[1]", ""},
   };
-  for (const auto& [json, where] : faulty) {
-    const auto list = parse_command_list(json);
-    ASSERT_FALSE(list) << json;
-    EXPECT_EQ(list.error().where, where) << json;
-    EXPECT_FALSE(list.error().remedy.empty()) << json;
+  for (const auto& [request, where] : faulty) {
+    const auto list = parse_command_list(request);
+    ASSERT_FALSE(list) << request;
+    EXPECT_EQ(list.error().where, where) << request;
+    EXPECT_FALSE(list.error().remedy.empty()) << request;
   }
   EXPECT_EQ(parse_trial(R"({"revision": 3, "step": "use/lift"})")->step, "use/lift");
   EXPECT_EQ(parse_trial(R"({"revision": 3})")->step, "");
