@@ -24,14 +24,16 @@ export const questionsOf = (view: View, activity: string): Question[] => childSe
 export const freeQuestion = (view: View, activity: string): string => freeName(view, setOf(activity), 'question-');
 /** The visits' records have these names in columns. */
 export const isPlainName = (name: string): boolean => /^[a-z][a-z0-9_-]{0,30}$/i.test(name);
-export const isTakenQuestion = (view: View, activity: string, name: string): boolean => child(metaAt(view, setOf(activity)), name) !== undefined;
+export const isTakenQuestion = (view: View, activity: string, name: string): boolean =>
+  child(metaAt(view, setOf(activity)), name) !== undefined;
 
 const kFirstAnswers = ['answer-1', 'answer-2'];
 
 export function addQuestion(activity: string, name: string, kind: QuestionKind): Command[] {
   const path = `${setOf(activity)}/${name}`;
   return [{ op: 'set', path: `${path}/kind`, value: kind },
-    ...(kind === 'choice' ? [{ op: 'set', path: `${path}/answers`, value: kFirstAnswers } as const] : []), { op: 'add', path: `${path}/text` }];
+    ...(kind === 'choice' ? [{ op: 'set', path: `${path}/answers`, value: kFirstAnswers } as const] : []),
+    { op: 'add', path: `${path}/text` }];
 }
 /** The last one goes with the set around it. */
 export function removeQuestion(view: View, question: Question): Command[] {
