@@ -49,6 +49,13 @@ void pace_preview(GatewaySite& site, const std::string& draft, const std::string
   done(done_so ? looked_at(site, draft) : refusal(done_so.error()));
 }
 
+void play_visit(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
+  const auto wanted = parse_visit_order(body);
+  if (!wanted) return done(refusal(wanted.error()));
+  const auto played = site.previews().play(draft, *wanted);
+  done(played ? looked_at(site, draft) : refusal(played.error()));
+}
+
 }  // namespace
 
 Expected<PaceWish> parse_pace(const std::string& body) {
@@ -65,12 +72,20 @@ Expected<PaceWish> parse_pace(const std::string& body) {
               R"(send {"pace": 0 to 1} or {"ticks": 1 to 10000})");
 }
 
+Expected<std::string> parse_visit_order(const std::string& body) {
+  const PaceJson json = PaceJson::parse(body, nullptr, false);
+  if (json.is_object() && json.size() == 1)
+    if (const auto visit = json.find("visit"); visit != json.end() && visit->is_string())
+      return visit->get<std::string>();
+  return fail(ErrorCode::invalid_value, "this names no visit", {}, R"(send {"visit": NAME}, or "" to end one)");
+}
+
 bool is_preview_verb(const std::string& verb) {
   return verb == "preview" || verb == "preview/stop" || is_passing(verb);
 }
 
 bool is_passing(const std::string& verb) {
-  return verb == "preview/pace";
+  return verb == "preview/pace" || verb == "preview/visit";
 }
 
 bool answer_preview_get(GatewaySite& site, const std::string& draft, const std::string& verb, const Site::Done& done) {
@@ -82,6 +97,7 @@ void answer_preview_post(GatewaySite& site, const std::string& draft, const std:
                          const Site::Done& done) {
   if (verb == "preview") return start_preview(site, draft, body, done);
   if (verb == "preview/pace") return pace_preview(site, draft, body, done);
+  if (verb == "preview/visit") return play_visit(site, draft, body, done);
   site.previews().stop(draft);
   done(looked_at(site, draft));
 }

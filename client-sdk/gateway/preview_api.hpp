@@ -7,8 +7,8 @@
 
 namespace mechane::gateway {
 
-// What the studio's API does for addresses that end so: "preview", "preview/pace", "preview/stop". The caller checks roles and writes the
-// audit log. On the loop's thread, as the site.
+// What the studio's API does for addresses that end so: "preview", "preview/pace", "preview/visit", "preview/stop". The caller checks
+// roles and writes the audit log. On the loop's thread, as the site.
 
 [[nodiscard]] bool is_preview_verb(const std::string& verb);
 /// Whether it asks for nothing that is worth a line of the audit log.
@@ -26,5 +26,7 @@ struct PaceWish {
 };
 /// Errors: invalid_value.
 [[nodiscard]] Expected<PaceWish> parse_pace(const std::string& body);
+/// {"visit": NAME}; the name may be empty. Errors: invalid_value.
+[[nodiscard]] Expected<std::string> parse_visit_order(const std::string& body);
 
 }  // namespace mechane::gateway

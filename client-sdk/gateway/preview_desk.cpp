@@ -83,6 +83,7 @@ PreviewDesk::PreviewDesk(Places places, const Backstage& backstage)
 
 PreviewDesk::~PreviewDesk() {
   for (auto& [draft, preview] : previews_) {
+    end_visit(preview);
     if (preview.process) preview.process->end();
     studio::remove_preview(preview.draft.file);
   }
@@ -197,6 +198,7 @@ void PreviewDesk::ended(std::uint64_t number) {
 /// What is seen of it ends at once, its server a moment later.
 void PreviewDesk::close(const std::string& draft, Preview& preview, const std::string& why) {
   preview.wanted.reset();
+  end_visit(preview);
   if (preview.hub) {
     backstage_.tokens.end(preview.kiosk);
     preview.hub->part(why, "look at the studio");
@@ -235,6 +237,40 @@ Expected<void> PreviewDesk::step(const std::string& draft, std::uint32_t ticks) 
   return order(**preview, fmt::format("step {}", ticks));
 }
 
+Expected<void> PreviewDesk::play(const std::string& draft, const std::string& visit) {
+  auto found = running(draft);
+  if (!found) return tl::unexpected(found.error());
+  Preview& preview = **found;
+  const auto has_name = [&visit](const state::VisitDescription& one) { return one.name == visit; };
+  if (!visit.empty() && std::ranges::none_of(preview.draft.world->visits, has_name))
+    return fail(ErrorCode::unknown_name, fmt::format("what runs has no visit '{}'", visit), "visit",
+                "start the draft anew, so that it runs as it is now");
+  if (!visit.empty() && !shows_world(preview.hub.get()))
+    return fail(ErrorCode::conflict, "this draft is still starting", {}, "try again in a moment");
+  end_visit(preview);
+  preview.played.reset();
+  if (visit.empty()) return {};
+  if (auto paced = set_pace(draft, 1); !paced) return paced;
+  auto played = PlayedVisit::start(places_.visitor, {preview.draft.file, preview.domain, preview.kiosk, visit},
+                                   [this, number = preview.number, one = ++preview.visits] {
+                                     backstage_.post([this, number, one] { visit_ended(number, one); });
+                                   });
+  if (!played) return tl::unexpected(played.error());
+  preview.played = std::move(*played);
+  return {};
+}
+
+void PreviewDesk::end_visit(Preview& preview) {
+  if (!preview.played) return;
+  if (auto process = preview.played->end()) ending_.push_back({preview.domain, std::move(process)});
+}
+
+void PreviewDesk::visit_ended(std::uint64_t number, std::uint64_t visit) {
+  const auto found = find(number);
+  if (found != previews_.end() && found->second.visits == visit && found->second.played)
+    found->second.played->note_end();
+}
+
 void PreviewDesk::stop(const std::string& draft) {
   const auto found = previews_.find(draft);
   if (found == previews_.end()) return;
@@ -256,6 +292,7 @@ std::string PreviewDesk::look(const std::string& draft, TimePoint now) {
     out["state"] = shows_world(preview.hub.get()) ? "running" : "starting";
     out["said"] = preview.process->said();
   }
+  if (preview.played) out["visit"] = preview.played->to_json();
   if (preview.hub) {
     backstage_.tokens.use(preview.token, now);
     out["kiosk"] = preview.kiosk;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <variant>
@@ -14,6 +15,7 @@
 
 #include "client-sdk/gateway/backstage.hpp"
 #include "client-sdk/gateway/kiosk_hub.hpp"
+#include "client-sdk/gateway/played_visit.hpp"
 #include "client-sdk/gateway/preview_process.hpp"
 #include "client-sdk/studio/shelf.hpp"
 #include "client-sdk/studio/stillness.hpp"
@@ -44,7 +46,8 @@ class PreviewDesk {
   static constexpr Duration kStaysUnseen = std::chrono::minutes(15);
 
   struct Places {
-    std::filesystem::path server;     ///< the program
+    std::filesystem::path server;  ///< the programs
+    std::filesystem::path visitor;
     std::filesystem::path scenarios;  ///< the museum's exhibits; empty: nothing is ever tried
     /// Removes the file of a preview, after the work that the studio's thread has been given before.
     std::function<void(const std::filesystem::path&)> remove;
@@ -66,6 +69,9 @@ class PreviewDesk {
   /// Errors: conflict (nothing runs, or time does not stand still), failed_process.
   [[nodiscard]] Expected<void> set_pace(const std::string& draft, double pace);
   [[nodiscard]] Expected<void> step(const std::string& draft, std::uint32_t ticks);
+  /// A scripted visitor comes, in the place of one who is there, and time runs as in the museum. Without a name he goes. Errors: conflict
+  /// (nothing runs), unknown_name (a visit that what runs does not have), failed_process.
+  [[nodiscard]] Expected<void> play(const std::string& draft, const std::string& visit);
   void stop(const std::string& draft);
   /// As JSON, for who looks at it. It ends when nobody has for a while.
   [[nodiscard]] std::string look(const std::string& draft, TimePoint now);
@@ -87,6 +93,8 @@ class PreviewDesk {
     std::shared_ptr<KioskHub> hub;
     std::vector<std::string> said;  ///< of one that has failed
     MotionWatch motion;
+    std::uint64_t visits = 0;           ///< that were played
+    std::optional<PlayedVisit> played;  ///< the last one
     TimePoint looked;
   };
   struct Ending {
@@ -102,6 +110,8 @@ class PreviewDesk {
   void open(const Preview& preview);
   void opened(std::uint64_t number, std::shared_ptr<client::DisplaySeats> seats);
   void ended(std::uint64_t number);
+  void end_visit(Preview& preview);
+  void visit_ended(std::uint64_t number, std::uint64_t visit);
   void close(const std::string& draft, Preview& preview, const std::string& why);
 
   const Places places_;

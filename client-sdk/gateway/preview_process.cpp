@@ -33,7 +33,7 @@ void close_both(const std::array<int, 2>& ends) {
 
 Expected<std::unique_ptr<PreviewProcess>> PreviewProcess::start(const std::filesystem::path& program,
                                                                 const std::vector<std::string>& arguments,
-                                                                std::function<void()> ended) {
+                                                                std::function<void()> ended, std::size_t lines_kept) {
   // Orders go through a socket: a write to a pipe that nobody reads would end this program.
   std::array<int, 2> orders{-1, -1}, words{-1, -1};
   const bool made =
@@ -58,11 +58,18 @@ Expected<std::unique_ptr<PreviewProcess>> PreviewProcess::start(const std::files
   fcntl(words[0], F_SETFL, O_NONBLOCK);
   // The raw call: Debian 12's header declares its function without C linkage.
   const int handle = static_cast<int>(syscall(SYS_pidfd_open, *child, 0));
-  return std::unique_ptr<PreviewProcess>(new PreviewProcess(*child, orders[0], words[0], handle, std::move(ended)));
+  return std::unique_ptr<PreviewProcess>(
+      new PreviewProcess(*child, orders[0], words[0], handle, lines_kept, std::move(ended)));
 }
 
-PreviewProcess::PreviewProcess(pid_t child, int orders, int words, int handle, std::function<void()> ended)
-    : child_(child), orders_(orders), words_(words), handle_(handle), ended_(std::move(ended)) {
+PreviewProcess::PreviewProcess(pid_t child, int orders, int words, int handle, std::size_t lines_kept,
+                               std::function<void()> ended)
+    : child_(child),
+      orders_(orders),
+      words_(words),
+      handle_(handle),
+      lines_kept_(lines_kept),
+      ended_(std::move(ended)) {
   thread_ = std::thread([this] { hear(); });
 }
 
@@ -98,7 +105,7 @@ void PreviewProcess::take(const char* bytes, std::size_t size) {
     } else if (lines_.back().size() < kLongestLine) {
       lines_.back() += bytes[i];
     }
-    if (lines_.size() > kLinesKept + 1) lines_.pop_front();
+    if (lines_.size() > lines_kept_ + 1) lines_.pop_front();
   }
 }
 
@@ -129,7 +136,7 @@ void PreviewProcess::hear() {
   while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status) && !ending_.load(std::memory_order_acquire)) {
-    const std::string words = std::string("\nthe server was ended by a signal: ") + strsignal(WTERMSIG(status)) + "\n";
+    const std::string words = std::string("\nit was ended by a signal: ") + strsignal(WTERMSIG(status)) + "\n";
     take(words.data(), words.size());
   }
   over_.store(true, std::memory_order_release);

@@ -1,4 +1,4 @@
-// The server of a preview: a child process that is given orders, and whose words are kept.
+// A program of a preview, its server or a scripted visitor: a child process that is given orders, and whose words are kept.
 #pragma once
 
 #include <atomic>
@@ -29,7 +29,8 @@ class PreviewProcess {
   /// destructor has returned.
   [[nodiscard]] static Expected<std::unique_ptr<PreviewProcess>> start(const std::filesystem::path& program,
                                                                        const std::vector<std::string>& arguments,
-                                                                       std::function<void()> ended);
+                                                                       std::function<void()> ended,
+                                                                       std::size_t lines_kept = kLinesKept);
   /// Ends the child, and waits until it has ended.
   ~PreviewProcess();
   PreviewProcess(const PreviewProcess&) = delete;
@@ -45,7 +46,7 @@ class PreviewProcess {
   [[nodiscard]] std::vector<std::string> said() const;
 
  private:
-  PreviewProcess(pid_t child, int orders, int words, int handle, std::function<void()> ended);
+  PreviewProcess(pid_t child, int orders, int words, int handle, std::size_t lines_kept, std::function<void()> ended);
   void hear();
   void take(const char* bytes, std::size_t size);
 
@@ -53,6 +54,7 @@ class PreviewProcess {
   const int orders_;  // a socket
   const int words_;
   const int handle_;  // of the child; readable when it has ended
+  const std::size_t lines_kept_;
   const std::function<void()> ended_;
   std::atomic<bool> ending_{false};
   std::atomic<bool> over_{false};

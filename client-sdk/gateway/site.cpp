@@ -80,9 +80,9 @@ GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accou
       studio_(options.scenarios, options.state, [&server](std::function<void()> job) { server.post(std::move(job)); }),
       backstage_{options.domain,   slow_,    [&server](std::function<void()> job) { server.post(std::move(job)); },
                  std::move(seats), content_, tokens_},
-      previews_(
-          {program_folder() / "mechane-server", options.scenarios, [this](const auto& file) { remove_preview(file); }},
-          backstage_) {}
+      previews_({program_folder() / "mechane-server", program_folder() / "mechane-visitor", options.scenarios,
+                 [this](const auto& file) { remove_preview(file); }},
+                backstage_) {}
 
 GatewaySite::~GatewaySite() {
   waiting_.clear();  // these hold hubs, too

@@ -36,7 +36,7 @@ class PreviewDeskTest : public testing::Test {
  protected:
   explicit PreviewDeskTest(const char* server = kServer) : server_(folder_.script("server", server)) {
     left_ = lay("left").file;
-    desk_.emplace(PreviewDesk::Places{server_, folder_.path(), studio::remove_preview}, backstage_);
+    desk_.emplace(PreviewDesk::Places{server_, server_, folder_.path(), studio::remove_preview}, backstage_);
   }
   void TearDown() override { desk_.reset(); }
 
@@ -130,7 +130,21 @@ TEST_F(PreviewDeskTest, ADraftRunsInADomainOfItsOwnAndTakesOrders) {
 TEST_F(PreviewDeskTest, WhatDoesNotRunTakesNoOrders) {
   EXPECT_THAT(desk_->set_pace("mine", 0).error(), is_error(ErrorCode::conflict, 0, {"start"}));
   EXPECT_THAT(desk_->step("mine", 1).error(), is_error(ErrorCode::conflict, 0));
+  EXPECT_THAT(desk_->play("mine", "lifting").error(), is_error(ErrorCode::conflict, 0, {"start"}));
   desk_->stop("mine");
+}
+
+TEST_F(PreviewDeskTest, OnlyAVisitOfWhatRunsIsPlayedAndOnlyOnceItRuns) {
+  auto world = std::make_shared<state::WorldDescription>();
+  world->visits.push_back({"lifting", {}, {}});
+  ASSERT_TRUE(desk_->prepare("mine"));
+  studio::PreviewDraft laid = lay("mine");
+  laid.world = world;
+  desk_->start("mine", &laid, now_);
+  EXPECT_THAT(desk_->play("mine", "shown").error(), is_error(ErrorCode::unknown_name, 0, {"anew"}));
+  EXPECT_THAT(desk_->play("mine", "lifting").error(), is_error(ErrorCode::conflict, 0, {"moment"}));
+  EXPECT_TRUE(desk_->play("mine", "")) << "nobody has to go";
+  EXPECT_FALSE(look("mine").contains("visit"));
 }
 
 TEST_F(PreviewDeskTest, AStopEndsTheServerAndRemovesTheFileAndItsFolder) {
@@ -253,6 +267,13 @@ TEST(PreviewPace, IsReadOrRefused) {
                             R"({"pace": null})", R"({"ticks": 0})", R"({"ticks": 10001})", R"({"ticks": 1.5})",
                             R"({"ticks": -1})", R"({"pace": 0, "ticks": 1})"})
     EXPECT_FALSE(parse_pace(wrong)) << wrong;
+}
+
+TEST(PreviewVisit, IsNamedOrRefused) {
+  EXPECT_EQ(*parse_visit_order(R"({"visit": "lifting"})"), "lifting");
+  EXPECT_EQ(*parse_visit_order(R"({"visit": ""})"), "");
+  for (const char* wrong : {"", "[]", "{}", R"({"visit": 3})", R"({"visit": "a", "pace": 1})", R"("a")"})
+    EXPECT_FALSE(parse_visit_order(wrong)) << wrong;
 }
 
 }  // namespace

@@ -16,6 +16,15 @@ export interface Still {
   def: string;
   reasons: StillReason[];
 }
+/** A scripted visitor in the world that runs. */
+export interface Played {
+  /** "": there was none. */
+  name: string;
+  state: 'playing' | 'done' | 'incomplete' | 'failed';
+  moves: { name: string; ok: boolean; reason: string }[];
+  /** Why it is not done; or, where it has failed, the last lines that it said. */
+  reason: string;
+}
 export interface Preview {
   state: PreviewState;
   /** Of the draft, as it was when this began. */
@@ -32,6 +41,7 @@ export interface Preview {
   activity: string;
   step: string;
   still: Still[];
+  visit: Played;
 }
 /** What is asked of one that runs: how fast, or, while it is paused, so many ticks of 1 ms. */
 export type Pacing = { pace: number } | { ticks: number };
@@ -43,6 +53,17 @@ const stillOf = (v: unknown): Still => {
     { kind: text(r.kind), text: textsOf(r.text), remedy: textsOf(r.remedy), path: text(r.path) }));
   return { def: text(s.def), reasons };
 };
+
+const kPlayed: readonly string[] = ['playing', 'done', 'incomplete'];
+function playedOf(v: unknown): Played {
+  const p = fields(v);
+  return {
+    name: text(p.name),
+    state: kPlayed.includes(text(p.state)) ? (p.state as Played['state']) : 'failed',
+    moves: list(p.moves).map(fields).map((m) => ({ name: text(m.name), ok: m.ok === true, reason: text(m.reason) })),
+    reason: text(p.reason),
+  };
+}
 
 export function previewOf(v: unknown): Preview {
   const p = fields(v);
@@ -57,5 +78,6 @@ export function previewOf(v: unknown): Preview {
     activity: text(p.activity),
     step: text(p.step),
     still: list(p.still).map(stillOf),
+    visit: playedOf(p.visit),
   };
 }

@@ -2,13 +2,15 @@
 import { ApiError } from '../console/api';
 import { Connection } from '../wire/connection';
 import { decodeFrame } from '../wire/frame';
-import { kNothingKnown, parseMessage, reduce, type KioskState, type Quantity } from '../wire/messages';
+import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type Quantity, type WorldEvent } from '../wire/messages';
 import type { Draft } from './draft';
 import { wantedIn } from './flow';
 import type { Preview } from './preview';
 import { Series } from './preview_series';
 import { sentence, type StudioRequests } from './requests';
 import type { View } from './view';
+import type { Move } from './visits/moves';
+import { Recorder } from './visits/recorder';
 
 const kLookEvery_ms = 1_000;
 /** While none runs: another author may start it. */
@@ -31,11 +33,16 @@ export class PreviewDesk {
   chosen = $state<Record<string, boolean>>({});
   /** The step that the next one begins at, "use/lift"; "": where the exhibit does. */
   from = $state('');
+  /** The visit that is played once it runs; "": none. */
+  playNext = '';
   /** Seconds of world time in the plots; 0: all. */
   window_s = $state(30);
   /** Grows when the series has something new to draw. */
   drawn = $state(0);
+  /** Grows with what the author has done in it. */
+  acts = $state(0);
   readonly series = new Series();
+  private readonly recorder = new Recorder();
   private pace = 1;
   private world: KioskState = kNothingKnown;
   private connection: Connection | null = null;
@@ -92,6 +99,20 @@ export class PreviewDesk {
   step(ticks: number): Promise<void> {
     return this.order(() => this.requests.pacePreview(this.name, { ticks }));
   }
+  /** A scripted visitor comes, and plays a visit of what runs; "": it goes. */
+  play(visit: string): Promise<void> {
+    this.recorder.stop();
+    this.acts = 0;
+    return this.order(() => this.requests.playVisit(this.name, visit));
+  }
+  /** What the author has done so far, as a scripted visit does it, and how much of it no visit can do. */
+  shown(view: View): { moves: Move[]; leftOut: number } {
+    return { moves: this.recorder.moves(view, this.world), leftOut: this.recorder.leftOut };
+  }
+  forgetShown(): void {
+    this.recorder.clear();
+    this.acts = 0;
+  }
   /** Names of the quantities that are plotted, in the exhibit's order. */
   plotted(view: View): string[] {
     const wanted = new Set(wantedIn(view, this.now?.activity ?? '').map((w) => w.quantity));
@@ -142,6 +163,9 @@ export class PreviewDesk {
     if (said.pace > 0) this.pace = said.pace;
     this.now = said;
     if (this.seen) this.listen(said.state === 'running' ? said.socket : '');
+    const visit = this.playNext;
+    if (said.state !== 'starting') this.playNext = '';
+    if (said.state === 'running' && visit !== '') void this.play(visit);
     if (said.state !== 'none' && said.revision > (this.draft.state.view?.revision ?? 0)) void this.draft.refresh();
   }
   private fail(error: unknown): void {
@@ -160,6 +184,7 @@ export class PreviewDesk {
     this.connection = null;
     if (socket === '') return;
     this.series.clear();
+    this.forgetShown();
     this.world = kNothingKnown;
     this.connection = new Connection(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${socket}`, {
       opened: () => undefined,
@@ -170,18 +195,28 @@ export class PreviewDesk {
   }
   private hearText(json: string): void {
     const message = parseMessage(json);
-    if (message?.type !== 'world') return;
+    if (!message) return;
+    if (message.type === 'event') this.hearEvent(eventOf(message));
     this.world = reduce(this.world, message);
+    if (message.type !== 'world') return;
     const { quantities, activity, step } = this.world.world!;
+    this.recorder.enter(activity);
     this.series.enter(activity, step, quantities.map((q) => q.name));
     this.quantities = quantities;
     this.stale = true;
+  }
+  private hearEvent(event: WorldEvent): void {
+    const { name, state } = this.now?.visit ?? { name: '', state: 'done' };
+    this.recorder.hear(event, this.world);
+    if (name !== '' && state === 'playing') this.recorder.stop();  // it is a visitor who does it
+    this.acts = this.recorder.count;
   }
   private hearFrame(bytes: ArrayBuffer): void {
     const frame = decodeFrame(bytes);
     if (!frame) return;
     if (frame.tick !== this.series.newest?.tick) this.stale = true;
     this.series.add(frame.tick, frame.quantities);
+    this.recorder.see(frame, this.world);
     const now = performance.now();
     if (!this.stale || now - this.drawnAt < kDrawEvery_ms) return;
     [this.stale, this.drawnAt] = [false, now];

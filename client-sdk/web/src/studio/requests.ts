@@ -23,6 +23,8 @@ export const studio = (api: Api) => ({
     previewOf(await api.json('POST', at(name, '/preview'), { revision, ...(step && { step }) })),
   pacePreview: async (name: string, pacing: Pacing): Promise<Preview> =>
     previewOf(await api.json('POST', at(name, '/preview/pace'), pacing)),
+  playVisit: async (name: string, visit: string): Promise<Preview> =>
+    previewOf(await api.json('POST', at(name, '/preview/visit'), { visit })),
   stopPreview: async (name: string): Promise<Preview> => previewOf(await api.json('POST', at(name, '/preview/stop'), {})),
   files: async (name: string): Promise<DraftFile[]> => filesOf(await api.json('GET', at(name, '/files'))),
   addFile: async (name: string, file: string, bytes: Blob, replace: boolean): Promise<DraftFile[]> =>

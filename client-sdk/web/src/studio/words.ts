@@ -312,6 +312,7 @@ const kEnglish = {
     inStep: (step: string) => `step ${step}`,
     failed: 'It does not run. This is the end of its log:',
     watch: 'Watch',
+    visits: 'Visits',
     beside: 'Beside the preview',
     restingWatch: 'While the draft runs, its quantities are plotted here, with its steps, and what does not move is explained.',
     quantities: 'Quantities',

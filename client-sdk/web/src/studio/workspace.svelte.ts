@@ -30,7 +30,7 @@ export class Workspace {
   selection = $state(pathId(''));
   part = $state<PartName>('scene');
   /** What stands beside the preview. */
-  beside = $state<'watch' | 'properties'>('watch');
+  beside = $state<'watch' | 'visits' | 'properties'>('watch');
   /** By field: what was typed and is not in the draft. It survives everything but leaving the page. */
   typed = $state<Record<string, string>>({});
   /** The field that gets the focus once it is there. */

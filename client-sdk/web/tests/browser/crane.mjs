@@ -155,6 +155,19 @@ const parts = {
     assert.ok(await isDone(), 'the load was lifted');
     await finger.lift();
     await picture('lifted');
+  },
+  async 'what the author did is kept as a visit, and a visitor does it again'() {
+    await page.click('aside nav button:text-is("Visits")');
+    assert.match(await page.locator('.visits ol').innerText(), /take CRANK[^]*turn AXLE by [\d.]+ turns/);
+    await page.check('.visits .tick input');
+    await picture('shown');
+    await page.click('.visits button:text-is("Keep it as a visit")');
+    await page.waitForSelector('.visits p:has-text("has the visit shown")');
+    await page.click('.visits button:text-is("Let a visitor do it")');
+    await page.waitForSelector('.visits :text("It is being played")', { timeout: 120_000 });
+    await page.waitForSelector('.visits :text("The visitor has")', { timeout: 240_000 });
+    await picture('played');
+    assert.match(await page.locator('.visits').innerText(), /shown: The visitor has done it/);
     await page.click('button:text-is("Stop it")');
   },
   async 'it is published'() {

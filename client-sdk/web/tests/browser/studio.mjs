@@ -416,6 +416,22 @@ const parts = {
     await page.click('.inspector button:text-is("Watch")');
     await page.waitForSelector('.time:has-text("step lift")');
     await accessible('preview', 'dark');
+    await page.click('.inspector button:text-is("Visits")');
+    const { tick } = gateway.trial.moment();
+    for (const [kind, at] of [['activity_started', tick], ['grasped', tick + 1], ['released', tick + 2000]])
+      gateway.say({ type: 'event', kind, tick: at, subject: 'studio-my-crane/0', object: 'DRUM', value: 0 });
+    await page.click('.visits button:text-is("Keep it as a visit")');
+    await page.waitForSelector('.visits p:text-is("The draft has the visit shown now.")');
+    assert.deepEqual(gateway.asked.findLast((one) => one.path.endsWith('/commands')).body.commands.slice(0, 3), [
+      { op: 'set', path: 'visits/shown/activity', value: 'use' }, { op: 'set', path: 'visits/shown/move:1/kind', value: 'reach' },
+      { op: 'set', path: 'visits/shown/move:1/body', value: 'DRUM' }]);
+    await accessible('visits', 'dark');
+    // What runs does not have it yet.
+    await page.click('.visits button:text-is("Let a visitor do it")');
+    await page.waitForSelector('.visits li:text-is("turn AXLE: it lost its handle")');
+    assert.deepEqual(gateway.asked.findLast((one) => one.path.endsWith('/preview/visit')).body, { visit: 'shown' });
+    await accessible('visits');
+    await page.click('.inspector button:text-is("Watch")');
     await page.click('button:text-is("Stop it")');
     await page.waitForSelector('button:text-is("Start it")');
     assert.equal(await page.evaluate(() => localStorage.getItem('mechane.kiosk')), null);

@@ -130,7 +130,7 @@ class Trial {
     const off = { kind: 'off', text: { el: 'Η δράση GUIDE είναι κλειστή σε αυτό το βήμα.', en: 'GUIDE is off in this step.' },
       path: 'activities/use/steps/lift/trigger:1/value' };
     return { state: 'running', revision: this.revision, begins: this.begins, pace: this.pace, kiosk: 'studio-my-crane', activity: 'use', step: this.step,
-      address: '/kiosk/studio-my-crane?token=t', socket: '/ws/kiosk/studio-my-crane?token=t', time_s: this.tick / 1000,
+      visit: this.visit, address: '/kiosk/studio-my-crane?token=t', socket: '/ws/kiosk/studio-my-crane?token=t', time_s: this.tick / 1000,
       still: [{ def: 'FRAME', reasons: [fixed] }, ...(this.step === 'lift' ? [{ def: 'LOAD', reasons: [off] }] : [])] };
   }
 }
@@ -180,6 +180,9 @@ export class StudioStandIn extends StandIn {
       return [409, { error: 'the draft was changed meanwhile', remedy: 'look at it, and start it again', revision: this.revision }];
     } else if (verb === '/pace') {
       this.trial.go(body);
+    } else if (verb === '/visit') {
+      this.trial.visit = { name: body.visit, state: 'incomplete', reason: 'in step lift', moves: [
+        { name: 'reach DRUM', ok: true, reason: '' }, { name: 'turn AXLE', ok: false, reason: 'it lost its handle' }] };
     } else if (verb === '/stop') {
       this.trial = null;
     }

@@ -122,6 +122,8 @@ export const kEnglishHelp: HelpWords = {
         'Slow time down, or pause and go on by small steps, to see what happens.',
         'Watch, at the right, shows the quantities over time, and what each step waits for.',
         'Below it stands what does not move and why, with a way to the field that decides it.',
+        'Visits, at the right, keeps what you do in the picture as a scripted visit. A visitor does it again whenever you press Let a ' +
+          'visitor do it, and you are told which move did not succeed.',
         'After a change press Start anew: what runs is the draft as it was when it started.',
       ],
       keys: [['Ctrl + Enter', 'start, or start anew'], ['P', 'pause, go on'], ['.', 'while paused: 10 ms on'],
