@@ -33,7 +33,8 @@ const place = (p: readonly number[]): string => p.map((x) => x.toFixed(2)).join(
 const size = (x: number): string => Math.abs(x).toFixed(2);
 
 const kEnglish: VisitWords = {
-  resting: 'While the draft runs, you can show here once what a visitor is to do, and have a scripted visitor do it.',
+  resting: 'While the draft runs, you can show here once what a visitor is to do, and have a scripted ' +
+    'visitor do it.',
   byYou: 'Shown by you',
   byVisitor: 'Done by a visitor',
   intro: 'Do it once in the picture: take things, carry them, turn them. What you do becomes a scripted visit, which does it again whenever ' +
@@ -72,7 +73,8 @@ const kEnglish: VisitWords = {
 };
 
 const kGreek: VisitWords = {
-  resting: 'Όσο τρέχει το σχέδιο, μπορείτε να δείξετε εδώ μία φορά τι θα κάνει ο επισκέπτης, και να βάλετε έναν έτοιμο επισκέπτη να το κάνει.',
+  resting: 'Όσο τρέχει το σχέδιο, μπορείτε να δείξετε εδώ μία φορά τι θα κάνει ο επισκέπτης, ' +
+    'και να βάλετε έναν έτοιμο επισκέπτη να το κάνει.',
   byYou: 'Όπως το δείξατε',
   byVisitor: 'Από έναν επισκέπτη',
   intro: 'Κάντε το μία φορά μέσα στην εικόνα: πιάστε πράγματα, μεταφέρετέ τα, γυρίστε τα. Ό,τι κάνετε γίνεται έτοιμη επίσκεψη, που το ' +
