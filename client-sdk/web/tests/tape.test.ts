@@ -1,5 +1,6 @@
 import { expect, it } from 'vitest';
 import { lastNotAfter, Player, Tape } from '../src/playback/tape';
+import { TapeWriter } from '../src/playback/tape_writer';
 import { frameBytes } from './bytes';
 
 /** A tape as STREAM.md has it. */
@@ -22,7 +23,7 @@ const world = (step: string, caption: string): object =>
 const frame = (tick: number, x: number): { frame: ArrayBuffer } =>
   ({ frame: frameBytes({ sequence: tick, tick, bodies: [{ object: 0, pose: [x, 0, 0, 0, 0, 0, 1] }] }) });
 const scene = { type: 'scene', objects: [{ index: 0, name: 'A', movable: true, pose: [0, 0, 0, 0, 0, 0, 1] }] };
-const parts = [world('take', 'Take it'), scene, frame(5000, 0), frame(5100, 1), world('turn', 'Turn it'), frame(5200, 2), frame(7200, 10)];
+const parts: (object | { frame: ArrayBuffer })[] = [world('take', 'Take it'), scene, frame(5000, 0), frame(5100, 1), world('turn', 'Turn it'), frame(5200, 2), frame(7200, 10)];
 
 it('shows the world at any moment, forwards and backwards', () => {
   const tape = new Tape(tapeOf(parts));
@@ -45,6 +46,28 @@ it('knows the steps, what is said in them, and the state before and after', () =
   expect(tape.stateAt(0.3).objects).toHaveLength(1);
   expect(tape.stateAt(0.3)).toBe(tape.stateAt(2));
   expect(tape.languages).toEqual(['en']);
+});
+
+it('is written as it is read: each tick once, and no more than it may have', () => {
+  const write = (writer: TapeWriter): TapeWriter => {
+    for (const part of parts) {
+      if ('frame' in part && part.frame instanceof ArrayBuffer)
+        writer.frame(Number(new DataView(part.frame).getBigUint64(16, true)), part.frame);
+      else writer.text(JSON.stringify(part));
+    }
+    return writer;
+  };
+  const writer = write(new TapeWriter());
+  const bytes = new Uint8Array(writer.bytes());
+  expect(bytes).toEqual(new Uint8Array(tapeOf(parts)));
+  const last = frame(7200, 11).frame;
+  writer.frame(7200, last);
+  expect([writer.bytes().byteLength, writer.full, writer.isLong]).toEqual([bytes.length, false, true]);
+  const short = write(new TapeWriter(bytes.length - 1));
+  expect(short.full).toBe(true);
+  expect(new Tape(short.bytes()).duration).toBeCloseTo(0.2);
+  short.clear();
+  expect([short.isLong, short.full, short.bytes().byteLength]).toEqual([false, false, 0]);
 });
 
 it('what is no tape, or half of one, is refused', () => {

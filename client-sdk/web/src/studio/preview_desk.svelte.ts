@@ -1,5 +1,7 @@
 // The draft's preview as the page has it: what the gateway says of it once a second, what its world sends, what is asked of it.
 import { ApiError } from '../console/api';
+import { Tape } from '../playback/tape';
+import { TapeWriter } from '../playback/tape_writer';
 import { Connection } from '../wire/connection';
 import { decodeFrame } from '../wire/frame';
 import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type Quantity, type WorldEvent } from '../wire/messages';
@@ -17,6 +19,8 @@ const kLookEvery_ms = 1_000;
 const kLookIdly_ms = 5_000;
 const kMostOrders = 4;
 const kDrawEvery_ms = 100;
+/** As on a visit's tape. */
+const kOnTape: readonly string[] = ['world', 'scene', 'presentation'];
 /** A page that nobody sees lets go of the preview, so that the gateway can end it. */
 const kUnseen_ms = 600_000;
 
@@ -43,6 +47,9 @@ export class PreviewDesk {
   acts = $state(0);
   readonly series = new Series();
   private readonly recorder = new Recorder();
+  private readonly writer = new TapeWriter();
+  /** What is played back; null: the trial itself is shown. */
+  tape = $state.raw<Tape | null>(null);
   private pace = 1;
   private world: KioskState = kNothingKnown;
   private connection: Connection | null = null;
@@ -108,6 +115,15 @@ export class PreviewDesk {
   /** What the author has done so far, as a scripted visit does it, and how much of it no visit can do. */
   shown(view: View): { moves: Move[]; leftOut: number } {
     return { moves: this.recorder.moves(view, this.world), leftOut: this.recorder.leftOut };
+  }
+  /** Whether there is something to be played back. */
+  get hasTape(): boolean {
+    void this.drawn;
+    return this.writer.isLong;
+  }
+  /** All that was seen of it since it began is shown again, or it is itself. */
+  playBack(on: boolean): void {
+    this.tape = on ? new Tape(this.writer.bytes()) : null;
   }
   forgetShown(): void {
     this.recorder.clear();
@@ -184,6 +200,8 @@ export class PreviewDesk {
     this.connection = null;
     if (socket === '') return;
     this.series.clear();
+    this.writer.clear();
+    this.tape = null;
     this.forgetShown();
     this.world = kNothingKnown;
     this.connection = new Connection(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${socket}`, {
@@ -198,6 +216,7 @@ export class PreviewDesk {
     if (!message) return;
     if (message.type === 'event') this.hearEvent(eventOf(message));
     this.world = reduce(this.world, message);
+    if (kOnTape.includes(message.type)) this.writer.text(json);
     if (message.type !== 'world') return;
     const { quantities, activity, step } = this.world.world!;
     this.recorder.enter(activity);
@@ -217,6 +236,7 @@ export class PreviewDesk {
     if (frame.tick !== this.series.newest?.tick) this.stale = true;
     this.series.add(frame.tick, frame.quantities);
     this.recorder.see(frame, this.world);
+    this.writer.frame(frame.tick, bytes);
     const now = performance.now();
     if (!this.stale || now - this.drawnAt < kDrawEvery_ms) return;
     [this.stale, this.drawnAt] = [false, now];

@@ -298,6 +298,8 @@ const kEnglish = {
     waits: 'The draft has errors: mend them first.',
     starting: 'It is starting …',
     stop: 'Stop it',
+    playBack: 'Play it back',
+    backToTrial: '‹ Back to the trial',
     running: 'It runs',
     on: 'runs',
     old: 'changed since',

@@ -292,6 +292,8 @@ export const kGreek: StudioWords = {
     waits: 'Το σχέδιο έχει σφάλματα: διορθώστε τα πρώτα.',
     starting: 'Ξεκινά …',
     stop: 'Τέλος',
+    playBack: 'Ξαναδείτε το',
+    backToTrial: '‹ Πίσω στη δοκιμή',
     running: 'Τρέχει',
     on: 'τρέχει',
     old: 'έχει αλλάξει',

@@ -433,6 +433,11 @@ const parts = {
     await accessible('visits');
     await page.click('.inspector button:text-is("Watch")');
     await page.click('button:text-is("Stop it")');
+    await page.click('button:text-is("Play it back")');
+    await page.waitForSelector('.tape nav button:has-text("Lift")');
+    await until(page, 'the tape is drawn', (s) => s.complete && s.duration > 1, 60);
+    await accessible('tape');
+    await page.click('.tape button:has-text("Back to the trial")');
     await page.waitForSelector('button:text-is("Start it")');
     assert.equal(await page.evaluate(() => localStorage.getItem('mechane.kiosk')), null);
     assert.equal(gateway.sockets.size, 0);

@@ -12,7 +12,7 @@ export type Move =
   | { kind: 'wait'; seconds: number };
 
 /** What the gateway takes in one step. */
-const kMostCommands = 500;
+export const kMostCommands = 500;
 
 /** The names of the visits that play an activity. */
 export const visitsOf = (view: View, activity: string): string[] => childSets(metaAt(view, 'visits'))
