@@ -474,6 +474,29 @@ const parts = {
     assert.equal(gateway.published, 1);
     assert.equal(gateway.asked.at(-1).path, '/api/exhibits/my-crane/load');
   },
+  async 'a recorded visit is played back'() {
+    const part = (kind, bytes) => {
+      const head = Buffer.alloc(8);
+      head.writeUInt32LE(kind, 0);
+      head.writeUInt32LE(bytes.length, 4);
+      return Buffer.concat([head, bytes, Buffer.alloc(-bytes.length & 3)]);
+    };
+    const texts = gateway.messages.filter((m) => ['world', 'scene', 'presentation'].includes(m.type));
+    const frames = [1, 2, 3, 4].map((n) => gateway.frame(gateway.things, n, { tick: 1000 * n, quantities: [1, 0.2] }));
+    const tape = Buffer.concat([...texts.map((m) => part(1, Buffer.from(JSON.stringify(m)))), ...frames.map((f) => part(2, f))]);
+    const visit = { visit: 7, began: '2026-11-29 10:00', kiosk: 'hall', scenario: 'pulley-crane', activity: 'use', steps: [],
+      remarks: [{ when: '2026-11-29 10:05', author: 'eleni', text: 'They laughed.', at: 2 }] };
+    await page.route('**/api/visits/7/playback', (route) => route.fulfill({ json: { state: 'ready', share: 1, trouble: '', visit } }));
+    await page.route('**/api/visits/7/tape', (route) => route.fulfill({ body: tape, contentType: 'application/octet-stream' }));
+    await page.goto(new URL('/playback/7', page.url()).href);
+    await until(page, 'the tape is drawn', (s) => s.complete && s.duration === 3, 60);
+    await accessible('playback');
+    await page.click('nav button:has-text("They laughed.")');
+    await until(page, 'the remark’s moment is shown', (s) => s.at === 2);
+    await page.click('button:text-is("Play")');
+    await until(page, 'it has played to its end', (s) => s.at === 3);
+    await page.waitForSelector('button:text-is("Play")');
+  },
 };
 
 try {
