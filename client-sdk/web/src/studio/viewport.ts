@@ -13,6 +13,7 @@ import { kNothingKnown, type KioskState, type PoseArray, type View } from '../wi
 import type { Vector } from './commands';
 import type { JointMark } from './joint';
 import { jointShape } from './joint_shape';
+import { Ruler, type Measured } from './ruler';
 
 const kClick_px = 5;
 const kKeyTurn = Math.PI / 36;
@@ -28,6 +29,8 @@ const kMarkShare = 0.45;
 export type Tool = 'translate' | 'rotate' | null;
 export interface ViewportEvents {
   picked(name: string): void;
+  /** A point of a thing, while points are measured. */
+  measured(p: Vector): void;
   /** While it is dragged, and (`done`) when it is let go. */
   moved(name: string, pose: PoseArray, done: boolean): void;
 }
@@ -71,6 +74,10 @@ export class Viewport {
   private given: Camera | null = null;
   private state: KioskState = kNothingKnown;
   private selected = '';
+  private readonly ruler = new Ruler();
+  private measures = false;
+  private hidden: ReadonlySet<string> = new Set();
+  private locked: ReadonlySet<string> = new Set();
   private tool: Tool = null;
   /** The selected body's pose while it is dragged and until the gateway's answer. */
   private held: PoseArray | null = null;
@@ -98,7 +105,7 @@ export class Viewport {
     this.gizmo.addEventListener('objectChange', () => this.drag(false));
     this.gizmo.addEventListener('mouseUp', () => this.drag(true));
     this.outline.matrixAutoUpdate = false;
-    this.picture.world.scene.add(this.outline, this.joint, this.handle, this.gizmo.getHelper());
+    this.picture.world.scene.add(this.outline, this.joint, this.handle, this.ruler.group, this.gizmo.getHelper());
     canvas.addEventListener('pointerdown', this.down);
     canvas.addEventListener('pointerup', this.up);
     canvas.addEventListener('webglcontextrestored', this.need);
@@ -127,6 +134,17 @@ export class Viewport {
     this.tool = tool;
     this.gizmo.setTranslationSnap(snap ? kSnap_m : null);
     this.gizmo.setRotationSnap(snap ? kKeyTurn : null);
+    this.need();
+  }
+  /** Names of what is not drawn here, and of what no click takes. */
+  setAside(hidden: ReadonlySet<string>, locked: ReadonlySet<string>): void {
+    [this.hidden, this.locked] = [hidden, locked];
+    this.renew();
+  }
+  /** `on`: clicks measure, and select nothing. */
+  measure(on: boolean, measured: Measured | null): void {
+    this.measures = on;
+    this.ruler.show(measured);
     this.need();
   }
   /** The last move is taken, or is not. One that has begun since goes on. */
@@ -228,8 +246,12 @@ export class Viewport {
     this.downAt = null;
     if (!from || Math.hypot(event.clientX - from.x, event.clientY - from.y) > kClick_px || this.gizmo.axis) return;
     const { left, top } = this.canvas.getBoundingClientRect();
-    const { seen } = underFinger(this.picture.pickScene(), event.clientX - left, event.clientY - top);
-    this.events.picked(this.state.objects.find((o) => o.index === seen?.object)?.name ?? '');
+    const scene = this.picture.pickScene();
+    const nameOf = (object: number | null): string => this.state.objects.find((o) => o.index === object)?.name ?? '';
+    const targets = scene.targets.filter((t) => this.measures || !this.locked.has(nameOf(t.object)));
+    const { seen } = underFinger({ ...scene, targets }, event.clientX - left, event.clientY - top);
+    if (!this.measures) this.events.picked(nameOf(seen?.object ?? null));
+    else if (seen) this.events.measured(seen.p.toArray());
   };
   private drag(done: boolean): void {
     const { position: p, quaternion: q } = this.handle;
@@ -269,6 +291,7 @@ export class Viewport {
     this.rig.lookAt(this.orbit.target);
     world.show(this.frame(), camera);
     this.mark();
+    this.ruler.face(camera);
     this.picture.draw(this.frame(), this.clock, false, null);
     if (!world.complete) this.await(world.targets().length);
   };
@@ -293,16 +316,19 @@ export class Viewport {
     return object ? this.picture.world.placedOf(object.index) : null;
   }
   private frame(): Frame {
-    const index = this.state.objects.find((o) => o.name === this.selected)?.index;
-    const held = index === undefined ? null : this.held;
+    const others = this.state.objects.flatMap(({ name, index, pose }) => {
+      const held = name === this.selected ? this.held : null;
+      return held || this.hidden.has(name) ? [{ index, visible: this.hidden.has(name) ? 0 : 1, pose: held ?? pose }] : [];
+    });
     return {
       skipped: 0, sequence: 0, tick: 0, age: 0, quantities: new Float32Array(), hands: [], ropes: [],
-      objects: new Uint32Array(held ? [index!] : []), visible: new Uint8Array(held ? [1] : []), poses: new Float32Array(held ?? []),
+      objects: Uint32Array.from(others.map((o) => o.index)), visible: Uint8Array.from(others.map((o) => o.visible)),
+      poses: Float32Array.from(others.flatMap((o) => o.pose)),
     };
   }
   /** The outline and the gizmo of what is selected. */
   private mark(): void {
-    const placed = this.placed();
+    const placed = this.hidden.has(this.selected) ? null : this.placed();
     if (placed !== this.outlined) {
       this.outlined = placed;
       for (const old of this.outline.children) if (old instanceof LineSegments) old.geometry.dispose();

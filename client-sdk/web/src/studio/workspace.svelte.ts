@@ -1,5 +1,6 @@
 // What the parts of the studio share: the draft, what is selected, what is typed and not yet taken.
 import { tick } from 'svelte';
+import { SvelteSet } from 'svelte/reactivity';
 import type { Api } from '../console/api';
 import type { Edit, Vector } from './commands';
 import { Draft, type DraftState, type Outcome } from './draft';
@@ -43,6 +44,9 @@ export class Workspace {
   rulesFollow = $state(true);
   /** For who does not see it: where what was moved is now. */
   placed = $state('');
+  /** Bodies that this page's picture leaves out, and those that no click in it takes. What visitors see does not change. */
+  readonly hidden = new SvelteSet<string>();
+  readonly locked = new SvelteSet<string>();
   private moving = false;
   /** The middle of a thing, in W; the picture knows it better. */
   middleOf = (def: string): Vector | null => (outlineAt(this.view, def)?.pose?.slice(0, 3) as Vector | undefined) ?? null;

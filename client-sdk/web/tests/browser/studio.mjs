@@ -300,6 +300,36 @@ const parts = {
     await saved();
     assert.ok(Math.abs(sent()[0].pose[4] - Math.SQRT1_2) < 1e-6);
   },
+  async 'a body is hidden, locked and measured in the picture, and the exhibit stays as it is'() {
+    await choose('DRUM');
+    const { revision, selectedAt } = await until(page, 'the drum has an outline', (s) => s.outlined && s.complete);
+    const box = await page.locator('canvas').boundingBox();
+    const click = (at) => page.mouse.click(box.x + at.x, box.y + at.y);
+    await page.focus('[role=application]');
+    await page.keyboard.press('h');
+    await page.waitForSelector('[role=treeitem]:has-text("DRUM") small:text-is("hidden")');
+    await until(page, 'it is not drawn', (s) => !s.outlined);
+    await click(selectedAt);
+    await until(page, 'what is behind it is taken', (s) => s.selection !== 'node:DRUM');
+    await choose('LOAD');
+    await page.click('.tools button:text-is("Lock")');
+    const { selectedAt: stone } = await until(page, 'the stone has an outline', (s) => s.outlined);
+    assert.ok(await page.locator('.tools button:text-is("Move")').isDisabled());
+    await choose('FRAME');
+    await click(stone);
+    await until(page, 'a locked thing is not taken', (s) => s.selection !== 'node:LOAD');
+    await page.click('.tools button:text-is("Measure")');
+    await click(stone);
+    await page.waitForSelector('output:text-is("Click on another point.")');
+    await click({ x: stone.x + 4, y: stone.y });
+    const told = await page.textContent('output:has-text(" m ")');
+    assert.ok(Number.parseFloat(told) > 0 && Number.parseFloat(told) < 0.2, told);
+    await accessible('measured');
+    await page.click('.tools button:text-is("Measure")');
+    await page.click('.tools button:has-text("Show and unlock all (2)")');
+    await choose('DRUM');
+    await until(page, 'all is as before', (s) => s.outlined && s.revision === revision);
+  },
   async 'two things are joined, as the picture shows meanwhile, and the joint is undone'() {
     await choose('LOAD');
     await page.click('.tools button:text-is("New joint")');
