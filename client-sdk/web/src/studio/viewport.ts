@@ -28,11 +28,12 @@ const kMarkShare = 0.45;
 
 export type Tool = 'translate' | 'rotate' | null;
 export interface ViewportEvents {
-  picked(name: string): void;
+  /** `besides`: what is selected stays so. */
+  picked(name: string, besides: boolean): void;
   /** A point of a thing, while points are measured. */
   measured(p: Vector): void;
-  /** While it is dragged, and (`done`) when it is let go. */
-  moved(name: string, pose: PoseArray, done: boolean): void;
+  /** While they are dragged, and (`done`) when they are let go; the one with the arrows first. */
+  moved(bodies: [name: string, pose: PoseArray][], done: boolean): void;
 }
 
 /** A rim of even breadth around a mesh: its back, a little larger. */
@@ -53,6 +54,9 @@ function rimMaterial(size: Vector2): ShaderMaterial {
   });
 }
 
+const matrixOf = ([x, y, z, ...q]: PoseArray): Matrix4 =>
+  new Matrix4().compose(new Vector3(x, y, z), new Quaternion(...q), new Vector3(1, 1, 1));
+
 export class Viewport {
   readonly picture: Picture;
   private readonly rig = new PerspectiveCamera();
@@ -63,8 +67,8 @@ export class Viewport {
   private readonly rim = rimMaterial(this.size);
   private readonly lines = new LineBasicMaterial({ color: kOutline, depthTest: false, transparent: true, opacity: 0.55, toneMapped: false,
     fog: false });
-  private readonly outline = new Group();
-  private outlined: unknown = null;
+  /** By name, with what they are around. */
+  private readonly outlines = new Map<string, { around: unknown; group: Group }>();
   private readonly joint = new Group();
   private marked: JointMark | null = null;
   /** Where the author looks from; null: as visitors do. */
@@ -74,6 +78,7 @@ export class Viewport {
   private given: Camera | null = null;
   private state: KioskState = kNothingKnown;
   private selected = '';
+  private besides: readonly string[] = [];
   private readonly ruler = new Ruler();
   private measures = false;
   private hidden: ReadonlySet<string> = new Set();
@@ -104,8 +109,7 @@ export class Viewport {
     this.gizmo.addEventListener('dragging-changed', ({ value }) => (this.orbit.enabled = !value));
     this.gizmo.addEventListener('objectChange', () => this.drag(false));
     this.gizmo.addEventListener('mouseUp', () => this.drag(true));
-    this.outline.matrixAutoUpdate = false;
-    this.picture.world.scene.add(this.outline, this.joint, this.handle, this.ruler.group, this.gizmo.getHelper());
+    this.picture.world.scene.add(this.joint, this.handle, this.ruler.group, this.gizmo.getHelper());
     canvas.addEventListener('pointerdown', this.down);
     canvas.addEventListener('pointerup', this.up);
     canvas.addEventListener('webglcontextrestored', this.need);
@@ -124,10 +128,11 @@ export class Viewport {
     this.picture.set(state);
     this.letGo();
   }
-  /** By its DEF; "": nothing. */
-  select(name: string): void {
+  /** By its DEF, "": nothing; and others that go with it. */
+  select(name: string, besides: readonly string[]): void {
+    if (name !== this.selected) this.held = null;
     this.selected = name;
-    this.held = null;
+    this.besides = besides;
     this.need();
   }
   use(tool: Tool, snap: boolean): void {
@@ -209,7 +214,7 @@ export class Viewport {
   lookAt(): object {
     const { p, target } = this.camera();
     const middle = this.middleOf(this.selected);
-    return { complete: this.picture.world.complete, camera: [...p.toArray(), ...target.toArray()], outlined: this.outlined !== null,
+    return { complete: this.picture.world.complete, camera: [...p.toArray(), ...target.toArray()], outlined: this.outlines.has(this.selected), besides: this.besides,
       selectedAt: middle && this.picture.pixelOf(vector(middle)), joint: this.marked, objects: this.state.objects.map((o) => o.name) };
   }
 
@@ -250,7 +255,7 @@ export class Viewport {
     const nameOf = (object: number | null): string => this.state.objects.find((o) => o.index === object)?.name ?? '';
     const targets = scene.targets.filter((t) => this.measures || !this.locked.has(nameOf(t.object)));
     const { seen } = underFinger({ ...scene, targets }, event.clientX - left, event.clientY - top);
-    if (!this.measures) this.events.picked(nameOf(seen?.object ?? null));
+    if (!this.measures) this.events.picked(nameOf(seen?.object ?? null), event.shiftKey);
     else if (seen) this.events.measured(seen.p.toArray());
   };
   private drag(done: boolean): void {
@@ -259,7 +264,11 @@ export class Viewport {
     const before = this.held;
     this.held = pose;
     if (done && !before) return;
-    this.events.moved(this.selected, pose, done);
+    const others = this.besides.flatMap((name): [string, PoseArray][] => {
+      const moved = this.along(name);
+      return moved ? [[name, moved]] : [];
+    });
+    this.events.moved([[this.selected, pose], ...others], done);
     if (done) this.renew();
     else this.need();
   }
@@ -317,7 +326,7 @@ export class Viewport {
   }
   private frame(): Frame {
     const others = this.state.objects.flatMap(({ name, index, pose }) => {
-      const held = name === this.selected ? this.held : null;
+      const held = name === this.selected ? this.held : this.besides.includes(name) ? this.along(name) : null;
       return held || this.hidden.has(name) ? [{ index, visible: this.hidden.has(name) ? 0 : 1, pose: held ?? pose }] : [];
     });
     return {
@@ -326,16 +335,44 @@ export class Viewport {
       poses: Float32Array.from(others.flatMap((o) => o.pose)),
     };
   }
-  /** The outline and the gizmo of what is selected. */
-  private mark(): void {
-    const placed = this.hidden.has(this.selected) ? null : this.placed();
-    if (placed !== this.outlined) {
-      this.outlined = placed;
-      for (const old of this.outline.children) if (old instanceof LineSegments) old.geometry.dispose();
-      this.outline.clear();
-      for (const mesh of placed?.group.children ?? []) if (mesh instanceof Mesh) this.outline.add(new Mesh(mesh.geometry, this.rim));
-      if (placed) this.outline.add(this.boxOf(placed.model.box));
+  /** Where a body is that goes with the one that is dragged; null: nothing is. */
+  private along(name: string): PoseArray | null {
+    const poseOf = (of: string): PoseArray | undefined => this.state.objects.find((o) => o.name === of)?.pose;
+    const [from, pose] = [poseOf(this.selected), poseOf(name)];
+    if (!this.held || !from || !pose || this.locked.has(name)) return null;
+    const moved = matrixOf(this.held).multiply(matrixOf(from).invert()).multiply(matrixOf(pose));
+    const [p, q] = [new Vector3(), new Quaternion()];
+    moved.decompose(p, q, new Vector3());
+    return [p.x, p.y, p.z, q.x, q.y, q.z, q.w];
+  }
+  private outline(name: string): void {
+    const placed = this.hidden.has(name) ? null : this.placed(name);
+    const old = this.outlines.get(name);
+    if (old && old.around !== placed) this.dropOutline(name);
+    if (!placed) return;
+    const { group } = this.outlines.get(name) ?? { group: new Group() };
+    if (!this.outlines.has(name)) {
+      this.outlines.set(name, { around: placed, group });
+      group.matrixAutoUpdate = false;
+      for (const mesh of placed.group.children) if (mesh instanceof Mesh) group.add(new Mesh(mesh.geometry, this.rim));
+      group.add(this.boxOf(placed.model.box));
+      this.picture.world.scene.add(group);
     }
+    group.matrix.copy(placed.group.matrix);
+    group.matrixWorldNeedsUpdate = true;
+  }
+  private dropOutline(name: string): void {
+    const { group } = this.outlines.get(name)!;
+    for (const old of group.children) if (old instanceof LineSegments) old.geometry.dispose();
+    this.picture.world.scene.remove(group);
+    this.outlines.delete(name);
+  }
+  /** The outlines and the gizmo of what is selected. */
+  private mark(): void {
+    const all = [this.selected, ...this.besides];
+    for (const name of [...this.outlines.keys()]) if (!all.includes(name)) this.dropOutline(name);
+    for (const name of all) this.outline(name);
+    const placed = this.outlines.has(this.selected) ? this.placed() : null;
     if (this.marked) {
       const { p, fov } = this.camera();
       this.joint.position.set(...this.marked.at);
@@ -343,11 +380,7 @@ export class Viewport {
       this.joint.scale.setScalar(kMarkShare * Math.tan(fov / 2) * p.distanceTo(this.joint.position));
     }
     const movable = placed && this.tool !== null;
-    if (placed) {
-      this.outline.matrix.copy(placed.group.matrix);
-      this.outline.matrixWorldNeedsUpdate = true;
-      if (!this.gizmo.dragging) placed.group.matrix.decompose(this.handle.position, this.handle.quaternion, this.handle.scale);
-    }
+    if (placed && !this.gizmo.dragging) placed.group.matrix.decompose(this.handle.position, this.handle.quaternion, this.handle.scale);
     if (movable && this.gizmo.object !== this.handle) this.gizmo.attach(this.handle);
     else if (!movable && this.gizmo.object) this.gizmo.detach();
     if (movable) this.gizmo.setMode(this.tool!);

@@ -122,6 +122,7 @@ const kEnglish = {
   takeBack: (n: number) => `Show and unlock all (${n})`,
   isHidden: 'hidden',
   isLocked: 'locked',
+  alsoSelected: (names: string) => `and selected with it: ${names}`,
   jointHelp: 'Choose the two here, in the contents or in the picture.',
   jointMoves: 'What moves',
   jointAgainst: 'Against',

@@ -116,6 +116,7 @@ export const kGreek: StudioWords = {
   takeBack: (n: number) => `Εμφάνιση και ξεκλείδωμα όλων (${n})`,
   isHidden: 'κρυμμένο',
   isLocked: 'κλειδωμένο',
+  alsoSelected: (names: string) => `και μαζί του επιλεγμένα: ${names}`,
   jointHelp: 'Διαλέξτε τα δύο εδώ, στα περιεχόμενα ή στην εικόνα.',
   jointMoves: 'Τι κινείται',
   jointAgainst: 'Ως προς',

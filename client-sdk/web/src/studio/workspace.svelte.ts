@@ -10,7 +10,7 @@ import { PreviewDesk } from './preview_desk.svelte';
 import { draftRequests, studio } from './requests';
 import type { Schema } from './schema';
 import { wordGroups } from './texts';
-import { pathId, treeOf, whereIs } from './tree';
+import { nodeId, pathId, selectedNode, treeOf, whereIs } from './tree';
 import { outlineAt, type View } from './view';
 import { studioWords, type Language } from './words';
 
@@ -28,7 +28,9 @@ export class Workspace {
   readonly preview: PreviewDesk;
   state = $state.raw<DraftState>({ view: null, theirs: null, waiting: 0, away: false, signedOut: false, conflict: null, refusals: {} });
   schema = $state.raw<Schema | null>(null);
-  selection = $state(pathId(''));
+  private chosen = $state(pathId(''));
+  /** Bodies that are selected besides. */
+  readonly also = new SvelteSet<string>();
   part = $state<PartName>('scene');
   /** What stands beside the preview. */
   beside = $state<'watch' | 'visits' | 'properties'>('watch');
@@ -63,6 +65,33 @@ export class Workspace {
     this.preview = new PreviewDesk(name, this.requests, this.draft);
   }
 
+  get selection(): string {
+    return this.chosen;
+  }
+  set selection(to: string) {
+    this.also.clear();
+    this.chosen = to;
+  }
+  /** Selects a body besides those that are, or not any more. */
+  selectAlso(def: string): void {
+    const first = selectedNode(this.chosen);
+    const isBody = (name: string): boolean => this.view.bodies.some((b) => b.def === name);
+    if (!isBody(def)) return;
+    if (!isBody(first)) this.selection = nodeId(def);
+    else if (def !== first) {
+      if (!this.also.delete(def)) this.also.add(def);
+    } else {
+      const [next, ...rest] = this.also;
+      if (next === undefined) return;
+      this.selection = nodeId(next);
+      for (const one of rest) this.also.add(one);
+    }
+  }
+  /** The bodies that are selected, the one with the properties first. */
+  get selectedBodies(): string[] {
+    const known = new Set(this.state.view?.bodies.map((b) => b.def));
+    return [selectedNode(this.chosen), ...this.also].filter((def) => known.has(def));
+  }
   get words() {
     return this.page.words;
   }

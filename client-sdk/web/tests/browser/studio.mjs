@@ -26,6 +26,22 @@ async function accessible(what, colorScheme = 'light') {
   await page.emulateMedia({ colorScheme: 'light' });
 }
 
+/** Drags the drum's arrow to the right. */
+async function dragArrow() {
+  await until(page, 'it has arrows', (s) => s.outlined);
+  const origin = await page.evaluate(() => window.mechane.pixelOf([0.3, 0.8, 0]));
+  const along = await page.evaluate(() => window.mechane.pixelOf([0.4, 0.8, 0]));
+  const box = await page.locator('canvas').boundingBox();
+  const at = (share) => [box.x + origin.x + share * (along.x - origin.x), box.y + origin.y + share * (along.y - origin.y)];
+  // An arrow's length is a share of the picture's height, whatever the distance.
+  const share = (0.09 * box.height) / Math.hypot(along.x - origin.x, along.y - origin.y);
+  await page.mouse.move(...at(share));
+  await page.mouse.down();
+  for (const more of [0.5, 1, 2]) await page.mouse.move(...at(share + more));
+  await page.mouse.up();
+  await saved();
+}
+
 const parts = {
   async 'an author signs in and continues a draft'() {
     gateway.signedIn = false;
@@ -277,20 +293,33 @@ const parts = {
     await page.waitForSelector('.beside', { state: 'detached' });
     await choose('DRUM');
   },
+  async 'several bodies are moved together, and copied'() {
+    await choose('DRUM');
+    await page.click('[role=treeitem]:has(.name:text-is("LOAD"))', { modifiers: ['Shift'] });
+    await page.waitForSelector('.inspector :text("and selected with it: LOAD")');
+    assert.equal(await page.locator('[role=treeitem][aria-selected=true]').count(), 2);
+    await page.click('.tools button:text-is("Move")');
+    await dragArrow();
+    const [drum, load] = sent();
+    assert.deepEqual([drum.op, drum.node, load.op, load.node], ['move', 'DRUM', 'move', 'LOAD']);
+    assert.ok(drum.pose[0] > 0.4);
+    for (const [i, from] of [[0, [0.3, -0.38]], [1, [0.8, 0.186]], [2, [0, 0]]])
+      assert.ok(Math.abs(drum.pose[i] - from[0] - (load.pose[i] - from[1])) < 1e-4, `${drum.pose} ${load.pose}`);
+    await accessible('several');
+    await page.click('.inspector button:text-is("Duplicate")');
+    await saved();
+    assert.deepEqual(sent(), [{ op: 'duplicate', node: 'DRUM' }, { op: 'duplicate', node: 'LOAD' }]);
+    for (let left = 2; left > 0; --left) {
+      await page.click('.bar button:text-is("Undo")');
+      await saved();
+    }
+    await choose('DRUM');
+    await page.click('.tools button:text-is("Move")');
+    await page.waitForSelector('.tools button:text-is("Move")[aria-pressed=false]');
+  },
   async 'a body is moved by its arrow, on the grid, and by numbers'() {
     await page.click('.tools button:text-is("Move")');
-    await until(page, 'it has arrows', (s) => s.outlined);
-    const origin = await page.evaluate(() => window.mechane.pixelOf([0.3, 0.8, 0]));
-    const along = await page.evaluate(() => window.mechane.pixelOf([0.4, 0.8, 0]));
-    const box = await page.locator('canvas').boundingBox();
-    const at = (share) => [box.x + origin.x + share * (along.x - origin.x), box.y + origin.y + share * (along.y - origin.y)];
-    // An arrow's length is a share of the picture's height, whatever the distance.
-    const share = (0.09 * box.height) / Math.hypot(along.x - origin.x, along.y - origin.y);
-    await page.mouse.move(...at(share));
-    await page.mouse.down();
-    for (const more of [0.5, 1, 2]) await page.mouse.move(...at(share + more));
-    await page.mouse.up();
-    await saved();
+    await dragArrow();
     const [{ op, node, pose }] = sent();
     assert.deepEqual([op, node], ['move', 'DRUM']);
     assert.ok(pose[0] > 0.4 && Math.abs(pose[0] * 100 - Math.round(pose[0] * 100)) < 1e-6, `on the grid: ${pose[0]}`);

@@ -30,7 +30,7 @@ export const kEnglishHelp: HelpWords = {
         'in, ' +
         'and decide from where visitors look.',
       how: [
-        'Click a thing to choose it. Its properties appear at the right.',
+        'Click a thing to choose it. Its properties appear at the right. With Shift choose several, and they move together.',
         'Drag beside the things to look around; the wheel goes nearer and farther. Show all leads back to the view of visitors.',
         'Press Move or Turn, then drag the coloured arrows or rings.',
         'Choose a part, such as a post or a crank, and press Insert. It appears in a free place.',
