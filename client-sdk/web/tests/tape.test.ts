@@ -23,7 +23,8 @@ const world = (step: string, caption: string): object =>
 const frame = (tick: number, x: number): { frame: ArrayBuffer } =>
   ({ frame: frameBytes({ sequence: tick, tick, bodies: [{ object: 0, pose: [x, 0, 0, 0, 0, 0, 1] }] }) });
 const scene = { type: 'scene', objects: [{ index: 0, name: 'A', movable: true, pose: [0, 0, 0, 0, 0, 0, 1] }] };
-const parts: (object | { frame: ArrayBuffer })[] = [world('take', 'Take it'), scene, frame(5000, 0), frame(5100, 1), world('turn', 'Turn it'), frame(5200, 2), frame(7200, 10)];
+const parts: (object | { frame: ArrayBuffer })[] = [world('take', 'Take it'), scene, frame(5000, 0), frame(5100, 1),
+  world('turn', 'Turn it'), frame(5200, 2), frame(7200, 10)];
 
 it('shows the world at any moment, forwards and backwards', () => {
   const tape = new Tape(tapeOf(parts));

@@ -1,5 +1,6 @@
 // A measure between two points of the picture.
-import { BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, SphereGeometry, Vector3, type Camera } from 'three';
+import { BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, SphereGeometry, Vector3,
+  type Camera } from 'three';
 import type { Vector } from './commands';
 
 const kColour = 0x0b5c7a;

@@ -214,7 +214,8 @@ export class Viewport {
   lookAt(): object {
     const { p, target } = this.camera();
     const middle = this.middleOf(this.selected);
-    return { complete: this.picture.world.complete, camera: [...p.toArray(), ...target.toArray()], outlined: this.outlines.has(this.selected), besides: this.besides,
+    return { complete: this.picture.world.complete, camera: [...p.toArray(), ...target.toArray()],
+      outlined: this.outlines.has(this.selected),
       selectedAt: middle && this.picture.pixelOf(vector(middle)), joint: this.marked, objects: this.state.objects.map((o) => o.name) };
   }
 

@@ -37,8 +37,8 @@ const kEnglish: VisitWords = {
     'visitor do it.',
   byYou: 'Shown by you',
   byVisitor: 'Done by a visitor',
-  intro: 'Do it once in the picture: take things, carry them, turn them. What you do becomes a scripted visit, which does it again whenever ' +
-    'you want to know whether the exhibit still works.',
+  intro: 'Do it once in the picture: take things, carry them, turn them. What you do becomes a scripted visit, which does it again ' +
+    'whenever you want to know whether the exhibit still works.',
   afterVisitor: 'A visitor has been here. To do it yourself, begin the activity anew.',
   midway: 'This trial began at a later step, and a visit begins at the start: start it anew from there.',
   leftOut: 'A visit has one hand. What a second hand did at the same time is not in it.',
