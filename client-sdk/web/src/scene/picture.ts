@@ -16,8 +16,8 @@ import { StepView } from './step_view';
 import { applyEye, eyesOf, forScreen, isMixed, kMono, nearestOf, placesOf, type Eye, type EyePlace, type StereoSetup } from './stereo';
 import { WorldScene } from './world_scene';
 
-/** Of the sky's light: how soft, rad; a side of its cube. What is softer than a pixel gains nothing by more of them, and a picture without a
- * graphics card would wait for seconds. */
+/** Of the sky's light: how soft, rad; a side of its cube. So soft a light gains nothing by more pixels, for which a first picture
+ * without a graphics card would wait for seconds. */
 const kSkyBlur = 0.02;
 const kSkyLight_px = 64;
 
