@@ -192,6 +192,24 @@ class Studio(WithGateway):
         self.assertEqual(process.stop(), 0, process.text()[-2000:])
 
     @marked("draws")
+    def test_what_is_saved_is_shown_by_another_x3d_browser(self):
+        process, operator = self.gateway("--scenarios", self.scenarios)
+        edits = {"rope": ("template:crank-and-rope", "LOAD"), SCREW: (f"exhibit:{SCREW}", "INNER")}
+        for name, (origin, body) in edits.items():
+            draft = f"/api/studio/drafts/{name}"
+            view = self.posted(operator, "/api/studio/drafts", {"name": name, "from": origin})
+            commands = [{"op": "field", "node": body, "field": "mass", "value": "41"},
+                        {"op": "insert", "part": "box", "position": [0.5, 0.2, 1]},
+                        {"op": "view", "pose": [0, 1.5, 4, 0, 0, 0, 1], "fieldOfView": 0.7}]
+            view = self.posted(operator, f"{draft}/commands", {"revision": view["revision"], "commands": commands})
+            self.posted(operator, f"{draft}/publish", {"revision": view["revision"]})
+        script = ROOT / "client-sdk/web/tests/browser/x3d.mjs"
+        shown = subprocess.run(["node", script, *(self.scenarios / f"{name}/{name}.x3d" for name in edits)], capture_output=True,
+                               text=True, timeout=120 * PATIENCE)
+        self.assertEqual(shown.returncode, 0, shown.stdout + shown.stderr)
+        self.assertEqual(process.stop(), 0, process.text()[-2000:])
+
+    @marked("draws")
     def test_a_crane_is_made_in_a_browser_from_an_empty_page_and_worked_by_a_visitor(self):
         process, _ = self.gateway("--scenarios", self.scenarios)
         script = ROOT / "client-sdk/web/tests/browser/crane.mjs"

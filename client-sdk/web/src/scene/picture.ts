@@ -16,6 +16,11 @@ import { StepView } from './step_view';
 import { applyEye, eyesOf, forScreen, isMixed, kMono, nearestOf, placesOf, type Eye, type EyePlace, type StereoSetup } from './stereo';
 import { WorldScene } from './world_scene';
 
+/** Of the sky's light: how soft, rad; a side of its cube. So soft a light gains nothing by more pixels, for which a first picture
+ * without a graphics card would wait for seconds. */
+const kSkyBlur = 0.02;
+const kSkyLight_px = 64;
+
 /** Pixels of the page, from its upper left corner. */
 export interface InsetPlace {
   left: number;
@@ -52,6 +57,8 @@ export class Picture {
   inset: { kind: 'detail' | 'whole'; place: InsetPlace } | null = null;
   /** Where words are written and fingers are looked for: one place, or one for each eye. */
   places: EyePlace[];
+  /** A mesh file has come, or did not: for a page that draws only when something has changed. */
+  filesChanged: () => void = () => undefined;
   /** Of a place, in which all is laid out. */
   width = 1;
   height = 1;
@@ -93,7 +100,10 @@ export class Picture {
     this.renderer.autoClear = false;
     this.mixer = isMixed(setup.stereo) ? new EyeMixer(setup.stereo === 'rows', setup.rightEyeFirst, antialias ? 4 : 0) : null;
     this.governor = new QualityGovernor(this.rendererName);
-    this.models = new ModelStore(address, () => this.state && this.world.set(this.state));
+    this.models = new ModelStore(address, () => {
+      if (this.state) this.world.set(this.state);
+      this.filesChanged();
+    });
     this.world = new WorldScene(this.models);
     this.lightUp();
     canvas.addEventListener('webglcontextlost', (event) => {
@@ -279,7 +289,7 @@ export class Picture {
     const sky = new Scene();
     sky.add(new Mesh(new SphereGeometry(10, 48, 32), skyMaterial(false)));
     const generator = new PMREMGenerator(this.renderer);
-    this.world.scene.environment = generator.fromScene(sky, 0.02, 0.1, 100).texture;
+    this.world.scene.environment = generator.fromScene(sky, kSkyBlur, 0.1, 100, { size: kSkyLight_px }).texture;
     generator.dispose();
   }
 }

@@ -19,7 +19,6 @@ const kClick_px = 5;
 const kKeyTurn = Math.PI / 36;
 const kKeyShare = 0.08;
 const kStill_ms = 16;
-const kLook_ms = 150;
 const kSnap_m = 0.01;
 const kOutline = 0xff8a1f;
 const kOutline_px = 2.5;
@@ -87,8 +86,9 @@ export class Viewport {
   /** The selected body's pose while it is dragged and until the gateway's answer. */
   private held: PoseArray | null = null;
   private asked = false;
-  private awaiting: ReturnType<typeof setTimeout> | undefined;
   private ended = false;
+  /** The last picture has all that there is. */
+  private whole = false;
   private drawnAt = -Infinity;
   private clock = 0;
   private downAt: { x: number; y: number } | null = null;
@@ -99,6 +99,7 @@ export class Viewport {
     private readonly events: ViewportEvents,
   ) {
     this.picture = new Picture(canvas, (hash) => `/content/${hash}`);
+    this.picture.filesChanged = () => this.renew();
     this.usual = this.picture.world.camera;
     this.gizmo = new TransformControls(this.picture.camera, canvas);
     this.orbit = new OrbitControls(this.rig, canvas);
@@ -116,7 +117,6 @@ export class Viewport {
   }
   end(): void {
     this.ended = true;
-    clearTimeout(this.awaiting);
     this.orbit.dispose();
     this.gizmo.dispose();
     this.picture.renderer.dispose();
@@ -214,8 +214,7 @@ export class Viewport {
   lookAt(): object {
     const { p, target } = this.camera();
     const middle = this.middleOf(this.selected);
-    return { complete: this.picture.world.complete, camera: [...p.toArray(), ...target.toArray()],
-      outlined: this.outlines.has(this.selected),
+    return { complete: this.whole, camera: [...p.toArray(), ...target.toArray()], outlined: this.outlines.has(this.selected),
       selectedAt: middle && this.picture.pixelOf(vector(middle)), joint: this.marked, objects: this.state.objects.map((o) => o.name) };
   }
 
@@ -275,6 +274,7 @@ export class Viewport {
   }
 
   private renew(): void {
+    this.whole = false;
     this.picture.renewShadows();
     this.need();
   }
@@ -303,18 +303,9 @@ export class Viewport {
     this.mark();
     this.ruler.face(camera);
     this.picture.draw(this.frame(), this.clock, false, null);
-    if (!world.complete) this.await(world.targets().length);
+    this.whole = world.complete;
   };
 
-  /** Draws again when more has come than was drawn. */
-  private await(drawn: number): void {
-    clearTimeout(this.awaiting);
-    this.awaiting = setTimeout(() => {
-      const { world } = this.picture;
-      if (world.complete || world.targets().length !== drawn) this.renew();
-      else this.await(drawn);
-    }, kLook_ms);
-  }
   /** Around what is selected: a body, or a joint's mark. */
   private boxAround(): Box3 | null {
     const placed = this.placed();
