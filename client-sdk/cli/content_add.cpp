@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <deque>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "server/content/catalogue_check.hpp"
 #include "server/content/content_hash.hpp"
+#include "server/content/licence_note.hpp"
 #include "server/content/mesh_import.hpp"
 #include "server/content/model_references.hpp"
 #include "server/scenario/facts.hpp"
@@ -25,28 +25,6 @@ std::string language_in_name(const fs::path& file) {
   const bool language =
       code.size() == 3 && std::ranges::all_of(code.substr(1), [](char c) { return c >= 'a' && c <= 'z'; });
   return language ? code.substr(1) : "";
-}
-
-/// The credits in a folder's LICENCE or LICENSE, from its SPDX lines ("SPDX-License-Identifier: CC0-1.0"); empty if
-/// there are none.
-content::Credits read_licence_note(const fs::path& folder) {
-  content::Credits credits;
-  for (const char* name : {"LICENCE", "LICENSE"}) {
-    std::error_code code;
-    if (!fs::is_regular_file(folder / name, code)) continue;
-    std::ifstream in(folder / name);
-    for (std::string line; std::getline(in, line);) {
-      const auto take = [&](std::string_view key, std::string& into) {
-        const std::size_t at = line.find(key);
-        if (at == std::string::npos || !into.empty()) return;
-        const std::size_t first = line.find_first_not_of(" \t", at + key.size());
-        if (first != std::string::npos) into = line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
-      };
-      take("SPDX-License-Identifier:", credits.licence);
-      take("SPDX-FileCopyrightText:", credits.author);
-    }
-  }
-  return credits;
 }
 
 class Gatherer {
@@ -259,7 +237,7 @@ class Gatherer {
     fs::path at = fs::weakly_canonical(fs::absolute(file, code), code).parent_path();
     for (; content::is_inside((at / "x").lexically_relative(folder_).generic_string()); at = at.parent_path()) {
       auto note = notes_.find(at);
-      if (note == notes_.end()) note = notes_.emplace(at, read_licence_note(at)).first;
+      if (note == notes_.end()) note = notes_.emplace(at, content::read_licence_note(at)).first;
       if (note->second.licence.empty()) continue;
       entry.credits.licence = note->second.licence;
       if (entry.credits.author.empty()) entry.credits.author = note->second.author;

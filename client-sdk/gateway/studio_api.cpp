@@ -9,6 +9,7 @@
 #include "client-sdk/gateway/studio_scene.hpp"
 #include "client-sdk/studio/archive.hpp"
 #include "client-sdk/studio/schema_json.hpp"
+#include "server/base/utf8.hpp"
 
 namespace mechane::gateway {
 namespace {
@@ -21,6 +22,9 @@ constexpr std::string_view kDrafts = "/api/studio/drafts/";
 constexpr std::string_view kFiles = "files/";
 constexpr std::string_view kDelete = "/delete";
 constexpr std::string_view kImport = "import";
+constexpr std::string_view kCatalogue = "/api/studio/catalogue";
+constexpr std::string_view kAbout = "/api/studio/catalogue/about";
+constexpr std::size_t kLongestPath = 500;
 constexpr std::size_t kLongestDraftName = 64;
 
 /// An address below a draft: "odometer", "versions/3/restore".
@@ -115,6 +119,11 @@ Expected<StudioDesk::Work> work_of(const DraftPath& path, const std::string& bod
     if (!list) return tl::unexpected(list.error());
     return [=, list = std::move(*list)](Shelf& shelf) { return answer_of(shelf.change(name, list, author)); };
   }
+  if (path.verb == "take") {
+    auto file = studio::parse_stated(body, "path", kLongestPath);
+    if (!file) return tl::unexpected(file.error());
+    return [=](Shelf& shelf) { return answer_of(shelf.take_file(name, *file)); };
+  }
   if (const std::string file = deleted_file(path.verb); !file.empty())
     return [=](Shelf& shelf) { return answer_of(shelf.remove_file(name, file)); };
   const auto version = restored_version(path.verb);
@@ -147,6 +156,18 @@ StudioDesk::Work upload_work(const DraftPath& path, const HttpRequest& request, 
   };
 }
 
+Expected<StudioDesk::Work> about_work(const std::string& body) {
+  auto about = studio::parse_about(body);
+  if (!about) return tl::unexpected(about.error());
+  return [about = std::move(*about)](Shelf& shelf) { return answer_of(shelf.describe(about)); };
+}
+
+StudioDesk::Work catalogue_work(const HttpRequest& request) {
+  studio::CatalogueQuery query{request.query_value("text"), request.query_value("kind"), request.query_value("tag"),
+                               request.query_value("licence"), request.query_value("language")};
+  return [query = std::move(query)](Shelf& shelf) { return answer_of(shelf.catalogue(query)); };
+}
+
 Expected<StudioDesk::Work> begin_work(const std::string& body, const Author& author) {
   auto name = studio::parse_stated(body, "name", kLongestDraftName);
   if (!name) return tl::unexpected(name.error());
@@ -166,6 +187,7 @@ Site::Done stopping_preview(GatewaySite& site, const std::string& draft, const S
 /// What a POST asks for, at whatever address of the studio.
 Expected<StudioDesk::Work> posted_work(const std::optional<DraftPath>& path, const HttpRequest& request,
                                        const Author& author) {
+  if (request.path == kAbout) return about_work(request.body);
   if (!path) return begin_work(request.body, author);
   if (longest_studio_upload(request.path) > 0) return upload_work(*path, request, author);
   return work_of(*path, request.body, author);
@@ -193,6 +215,7 @@ bool answer_studio_get(GatewaySite& site, const HttpRequest& request, const Site
     site.studio().give([](Shelf& shelf) { return answer_of(shelf.list()); }, done);
     return true;
   }
+  if (request.path == kCatalogue) return site.studio().give(catalogue_work(request), done), true;
   const auto path = draft_path(request.path);
   if (!path) return false;
   const std::string& name = path->name;
@@ -217,15 +240,15 @@ bool answer_studio_post(GatewaySite& site, const Session& session, const HttpReq
   if (session.role == Role::visitor)
     return done(refusal(403, "this is for the role author or operator", "sign in as somebody who has it")), true;
   const auto path = draft_path(request.path);
-  const bool begins = request.path == "/api/studio/drafts";
-  if (!path && !begins) return false;
+  const bool tells = request.path == "/api/studio/drafts" || request.path == kAbout;
+  if (!path && !tells) return false;
   const bool tries = path && is_preview_verb(path->verb);
   Expected<StudioDesk::Work> work;
   if (!tries) work = posted_work(path, request, author_of(session));
   if (!work) return done(fault_answer({work.error()})), true;
-  // Its history tells of each edit what it was.
+  // A draft's history tells of each edit what it was.
   const bool passing = tries && is_passing(path->verb);
-  if (!passing && !site.note(session, request, request.path, begins ? request.body.substr(0, 200) : ""))
+  if (!passing && !site.note(session, request, request.path, tells ? utf8_beginning(request.body, 200) : ""))
     return done(refusal(500, "the audit log cannot be written, so nothing was done", "see the gateway's log")), true;
   if (tries) return answer_preview_post(site, path->name, path->verb, request.body, done), true;
   if (path && path->verb == "discard")

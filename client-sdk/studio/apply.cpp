@@ -9,6 +9,7 @@
 #include "client-sdk/authoring/rename.hpp"
 #include "client-sdk/studio/body_edits.hpp"
 #include "client-sdk/studio/joint_edits.hpp"
+#include "client-sdk/studio/meta_edits.hpp"
 #include "server/base/suggestion.hpp"
 #include "server/x3d/metadata.hpp"
 
@@ -92,6 +93,7 @@ class Applier {
   Expected<void> operator()(const MoveNode& c) { return become(with_pose(editor_.document(), c)); }
   Expected<void> operator()(const JoinBodies& c) { return become(with_joint(editor_.document(), c)); }
   Expected<void> operator()(const AddView& c) { return become(with_view(editor_.document(), c)); }
+  Expected<void> operator()(const SetMeta& c) { return become(with_meta(editor_.document(), c)); }
 
  private:
   /// The first value in a set of ours on a node makes the set: "WHEEL/mechane:haptic/stiffness".

@@ -34,11 +34,9 @@ class Names {
   /// Empty: the file stays behind.
   std::string name_of(const fs::path& file) {
     if (const auto known = names_.find(file); known != names_.end()) return known->second;
-    const std::string stem = plain_stem(file), ending = lower_case(file.extension().string());
-    std::string name = is_file_name(file.filename().string()) ? file.filename().string() : stem + ending;
-    if (!is_file_name(name)) return {};
-    for (int number = 2; taken_.contains(name) || !rules_.is_free(name, file); ++number)
-      name = fmt::format("{}-{}{}", stem, number, ending);
+    std::string name = free_file_name(
+        file, [&](const std::string& one) { return !taken_.contains(one) && rules_.is_free(one, file); });
+    if (name.empty()) return {};
     taken_.insert(name);
     names_[file] = name;
     return name;
@@ -57,6 +55,15 @@ class Names {
 };
 
 }  // namespace
+
+std::string free_file_name(const fs::path& file, const std::function<bool(const std::string&)>& is_free) {
+  const std::string stem = plain_stem(file), ending = lower_case(file.extension().string());
+  std::string name = is_file_name(file.filename().string()) ? file.filename().string() : stem + ending;
+  if (!is_file_name(name)) return {};
+  for (int number = 2; !is_free(name); ++number)
+    name = fmt::format("{}-{}{}", stem, number, ending);
+  return name;
+}
 
 Bundle bundle(const x3d::Document& document, const BundleRules& rules) {
   Names names(rules);

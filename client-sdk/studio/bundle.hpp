@@ -27,6 +27,10 @@ struct BundleRules {
   authoring::NewPath otherwise = [](const std::string& path) { return path; };
 };
 
+/// The name of a file among a draft's: its own, with other letters and a number where that is needed. Empty: a draft takes no such file.
+[[nodiscard]] std::string free_file_name(const std::filesystem::path& file,
+                                         const std::function<bool(const std::string& name)>& is_free);
+
 /// A file that is named files/NAME keeps its name where that is free; another one gets its own, with other letters and a number where that
 /// is needed. A file of a kind that a draft does not take stays behind.
 [[nodiscard]] Bundle bundle(const x3d::Document& document, const BundleRules& rules);

@@ -15,7 +15,7 @@ namespace {
 using CommandJson = nlohmann::json;
 
 constexpr int kDeepest = 8;
-constexpr std::size_t kLongestText = 16'000, kLongestPath = 500, kMostValues = 2'000;
+constexpr std::size_t kLongestText = 16'000, kLongestPath = 500, kMostValues = 2'000, kLongestMeta = 2'000;
 constexpr double kFarthestMove_m = state::kFarthest_m, kShortestDirection = 1e-6;
 /// In the order of state::JointKind.
 constexpr std::array<std::string_view, 3> kJointKinds{"hinge", "slider", "ball"};
@@ -203,7 +203,11 @@ Command command_of(const std::string& op, CommandFields& fields) {
   if (op == "move") return MoveNode{fields.text("node"), fields.pose("pose")};
   if (op == "join") return join_of(fields);
   if (op == "view") return view_of(fields);
-  fields.blame("op", "set, add, reorder, remove, field, rename, insert, duplicate, delete, move, join or view");
+  if (op == "meta") {
+    const bool empty = fields.is_empty_text("value");
+    return SetMeta{fields.text("name"), empty ? "" : fields.text("value", kLongestMeta)};
+  }
+  fields.blame("op", "set, add, reorder, remove, field, rename, insert, duplicate, delete, move, join, view or meta");
   return RemoveEntry{};
 }
 
@@ -291,6 +295,7 @@ std::string title_of(const Command& command) {
                          c.body2.empty() ? c.body1 : fmt::format("{} and {}", c.body1, c.body2));
     }
     std::string operator()(const AddView& c) const { return c.name.empty() ? "add a view" : "add view " + c.name; }
+    std::string operator()(const SetMeta& c) const { return "set " + c.name; }
   };
   return std::string(utf8_beginning(std::visit(Titles{}, command), 100));
 }

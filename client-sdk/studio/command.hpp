@@ -87,8 +87,13 @@ struct AddView {
   double field_of_view_rad = 0;  ///< 0: X3D's own
   std::string description;       ///< its name in lists; empty: none
 };
+/// What the file says of itself: <meta name='license' content='CC0-1.0'/>.
+struct SetMeta {
+  std::string name;
+  std::string value;  ///< empty: it says nothing of that
+};
 using Command = std::variant<SetValue, AddSet, ReorderSet, RemoveEntry, SetField, RenameEverywhere, InsertPart,
-                             InsertMesh, DuplicateBody, DeleteNode, MoveNode, JoinBodies, AddView>;
+                             InsertMesh, DuplicateBody, DeleteNode, MoveNode, JoinBodies, AddView, SetMeta>;
 
 /// Commands for one revision of a draft: one step.
 struct CommandList {

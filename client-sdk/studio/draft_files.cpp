@@ -86,13 +86,14 @@ bool is_file_name(std::string_view name) {
          kind_of(name) != nullptr;
 }
 
-std::vector<FileUse> uses_of_file(const x3d::Document& document, const std::string& name) {
-  const std::string url = fmt::format("{}/{}", kFilesFolder, name);
-  std::vector<FileUse> out;
-  for (const scenario::FileReference& reference : scenario::file_references(document))
-    if (std::ranges::find(reference.urls, url) != reference.urls.end())
-      out.push_back({document.describe(reference.node), document[reference.node].line});
-  return out;
+bool uses_file(const x3d::Document& document, const std::string& name) {
+  const auto is_it = [&](const std::string& url) {
+    const fs::path path = url.substr(0, url.find('#'));
+    return is_own_path(path) && path.filename() == name;
+  };
+  return std::ranges::any_of(scenario::file_references(document), [&](const scenario::FileReference& reference) {
+    return std::ranges::any_of(reference.urls, is_it);
+  });
 }
 
 bool is_own_path(const fs::path& path) {
@@ -109,7 +110,7 @@ Expected<std::vector<std::string>> copy_used(const x3d::Document& document, cons
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& [name, size] : files_in(from)) {
-    if (uses_of_file(document, name).empty()) continue;
+    if (!uses_file(document, name)) continue;
     names.push_back(name);
     const auto bytes = read_whole(from / name, DraftFiles::kMostBytes);
     if (!bytes) return tl::unexpected(bytes.error());
@@ -125,18 +126,23 @@ Expected<std::vector<std::string>> copy_used(const x3d::Document& document, cons
 DraftFiles::DraftFiles(const fs::path& draft_folder, const fs::path& exhibit_folder)
     : draft_(draft_folder / kFilesFolder), exhibit_(exhibit_folder / kFilesFolder) {}
 
-std::vector<DraftFile> DraftFiles::all() const {
-  const auto mine = files_in(draft_), theirs = files_in(exhibit_);
-  auto both = mine;
+std::vector<DraftFile> DraftFiles::names() const {
+  const auto theirs = files_in(exhibit_);
+  auto both = files_in(draft_);
   both.insert(theirs.begin(), theirs.end());
   std::vector<DraftFile> out;
-  for (const auto& [name, bytes] : both) {
-    bool published = theirs.contains(name);
-    if (published && mine.contains(name)) {
-      const auto here = bytes == theirs.at(name) ? read_whole(draft_ / name, kMostBytes) : std::vector<std::byte>();
-      published = here && is_same(exhibit_ / name, *here);
-    }
-    out.push_back({name, bytes, kind_of(name)->sound, published});
+  for (const auto& [name, bytes] : both)
+    out.push_back({name, bytes, kind_of(name)->sound, theirs.contains(name)});
+  return out;
+}
+
+std::vector<DraftFile> DraftFiles::all() const {
+  std::vector<DraftFile> out = names();
+  const auto mine = files_in(draft_);
+  for (DraftFile& file : out) {
+    if (!file.published || !mine.contains(file.name)) continue;
+    const auto here = read_whole(draft_ / file.name, kMostBytes);
+    file.published = here && is_same(exhibit_ / file.name, *here);
   }
   return out;
 }

@@ -41,6 +41,8 @@ class DraftFiles {
 
   /// Those of the draft and of the exhibit's own folder `files`, by name.
   [[nodiscard]] std::vector<DraftFile> all() const;
+  /// The same without a look into them: `published`, where the exhibit has one of this name.
+  [[nodiscard]] std::vector<DraftFile> names() const;
   /// Errors: invalid_value (a name or a kind that is not taken, bytes that are not of that kind); conflict (another file has the name, and
   /// `replace` is false); too_large; io_failure, and then it is as it was.
   [[nodiscard]] Expected<void> put(const std::string& name, std::span<const std::byte> bytes, bool replace) const;
@@ -70,12 +72,15 @@ class DraftFiles {
                                                            const std::filesystem::path& from,
                                                            const std::filesystem::path& to);
 
-/// Where a document names a file.
+/// Where an exhibit names a file.
 struct FileUse {
   std::string place;  ///< "Inline WHEEL"
   int line = 0;
+  std::string exhibit{};   ///< whose text that is
+  bool draft = false;      ///< it is in its draft; otherwise only in what is published
+  std::string language{};  ///< of a sound that says something
 };
-/// Where it names files/NAME, in the order written.
-[[nodiscard]] std::vector<FileUse> uses_of_file(const x3d::Document& document, const std::string& name);
+/// Whether a document names files/NAME.
+[[nodiscard]] bool uses_file(const x3d::Document& document, const std::string& name);
 
 }  // namespace mechane::studio

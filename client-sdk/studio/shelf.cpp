@@ -16,7 +16,6 @@
 #include "server/scenario/checker.hpp"
 #include "server/scenario/file_finder.hpp"
 #include "server/scenario/mesh_finder.hpp"
-#include "server/x3d/metadata.hpp"
 
 namespace mechane::studio {
 namespace {
@@ -27,19 +26,6 @@ ShelfJson title_json(const state::Texts& title) {
   ShelfJson out = ShelfJson::object();
   for (const auto& [language, text] : title)
     out[language] = text;
-  return out;
-}
-
-/// The titles in mechane:scenario; without them X3D's own, in no language.
-state::Texts titles_in(const x3d::Document& document) {
-  state::Texts out;
-  x3d::Problems ignored("");
-  for (const x3d::NodeId info : document.elements("WorldInfo")) {
-    const auto set = x3d::read_metadata(document, info, "mechane:scenario", ignored);
-    const x3d::Metadata* text = set ? set->find("text") : nullptr;
-    for (const x3d::Metadata& one : text == nullptr ? std::vector<x3d::Metadata>() : text->children)
-      if (one.name.starts_with("title.") && one.strings.size() == 1) out[one.name.substr(6)] = one.strings.front();
-  }
   return out;
 }
 
@@ -71,7 +57,8 @@ Expected<std::string> text_named(std::string_view text, const std::string& was, 
   return editor->text();
 }
 
-Shelf::Shelf(fs::path scenarios, fs::path state) : scenarios_(std::move(scenarios)), state_(std::move(state)) {}
+Shelf::Shelf(fs::path scenarios, fs::path state)
+    : scenarios_(std::move(scenarios)), state_(std::move(state)), records_(state_ / "catalogue.json") {}
 
 fs::path Shelf::exhibit_file(const std::string& name) const {
   return scenarios_ / name / (name + ".x3d");
@@ -103,18 +90,6 @@ std::vector<std::string> Shelf::draft_names() const {
   });
 }
 
-state::Texts Shelf::title_of(const fs::path& file) {
-  std::error_code error;
-  const auto changed = fs::last_write_time(file, error);
-  const std::uintmax_t size = error ? 0 : fs::file_size(file, error);
-  KnownTitle& known = titles_[file];
-  if (error || (known.changed == changed && known.size == size)) return known.title;
-  x3d::Problems problems(file.string());
-  const auto document = x3d::read_document(file, problems);
-  known = {changed, size, document ? titles_in(*document) : state::Texts()};
-  return known.title;
-}
-
 ShelfResult<std::string> Shelf::list() {
   const std::vector<std::string> drafts = draft_names();
   std::set<std::string> names(drafts.begin(), drafts.end());
@@ -134,7 +109,7 @@ ShelfResult<std::string> Shelf::list() {
                         {"changed_s", changed.time_s},
                         {"problems", count_errors(problems_of(name, **opened))}};
     }
-    entry["title"] = title_json(title_of(drafted ? state_ / name / "draft.x3d" : exhibit_file(name)));
+    entry["title"] = title_json(facts_of(name, drafted).title);
     exhibits.push_back(std::move(entry));
   }
   for (const Template& one : templates())
@@ -185,9 +160,13 @@ ShelfResult<std::string> Shelf::begin(const std::string& name, const std::string
   if (!text) return shelf_fault(text.error());
   // The text names its files beside it: a copy brings those of the exhibit that it was copied from.
   if (!own && from.starts_with(kFromExhibit)) {
-    const fs::path theirs = exhibit_file(from.substr(kFromExhibit.size())).parent_path();
-    if (auto copied = copy_files(name, *text, theirs, state_ / name / kFilesFolder); !copied)
-      return shelf_fault(copied.error());
+    const std::string other = from.substr(kFromExhibit.size());
+    const auto copied = copy_files(name, *text, exhibit_file(other).parent_path(), state_ / name / kFilesFolder);
+    if (!copied) return shelf_fault(copied.error());
+    std::map<std::string, std::string> names;
+    for (const std::string& file : *copied)
+      names[file] = fmt::format("{}/{}/{}", other, kFilesFolder, file);
+    copy_records(name, names);
   }
   auto made = Draft::make(state_ / name, std::move(*text), from, author);
   if (!made) return shelf_fault(made.error());

@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "client-sdk/studio/apply.hpp"
+#include "client-sdk/studio/catalogue.hpp"
 #include "client-sdk/studio/draft.hpp"
 #include "client-sdk/studio/draft_files.hpp"
+#include "client-sdk/studio/exhibit_facts.hpp"
+#include "client-sdk/studio/records.hpp"
 #include "client-sdk/studio/shelf_fault.hpp"
 #include "client-sdk/studio/versions.hpp"
 #include "server/state/description.hpp"
@@ -65,7 +68,7 @@ class Shelf {
   /// As DraftFiles::put(). Undo does not take it back. Returns the list of files.
   [[nodiscard]] ShelfResult<std::string> add_file(const std::string& name, const std::string& file,
                                                   std::span<const std::byte> bytes, bool replace);
-  /// Deletes a file that neither the draft nor the published exhibit names. Undo does not bring it back. Returns the list of files.
+  /// Deletes a file that no draft and no published exhibit names. Undo does not bring it back. Returns the list of files.
   [[nodiscard]] ShelfResult<std::string> remove_file(const std::string& name, const std::string& file);
   /// The draft as one file, or the exhibit where there is no draft: an archive with all meshes and sounds that it names.
   [[nodiscard]] ShelfResult<std::string> pack(const std::string& name);
@@ -76,6 +79,13 @@ class Shelf {
   /// draft's. Returns the view, with what had to be renamed.
   [[nodiscard]] ShelfResult<std::string> merge(const std::string& name, std::int64_t revision, const std::string& from,
                                                const Author& author);
+  /// All that the museum has and fits the query.
+  [[nodiscard]] ShelfResult<std::string> catalogue(const CatalogueQuery& query);
+  /// Writes what is said of a mesh or a sound. Errors: conflict, where somebody else has written of it meanwhile.
+  [[nodiscard]] ShelfResult<std::string> describe(const AboutRequest& request);
+  /// A copy of a mesh or sound of the museum, with its record, comes among the draft's files; by another name where its own is taken.
+  /// Returns the list of files, with the name as `taken`.
+  [[nodiscard]] ShelfResult<std::string> take_file(const std::string& name, const std::string& path);
   /// What bodies can be made of a mesh file: its nodes with the volumes of those that are closed. It imports the file.
   [[nodiscard]] ShelfResult<std::string> nodes_of_file(const std::string& name, const std::string& file);
   [[nodiscard]] ShelfResult<CompiledDraft> compile(const std::string& name);
@@ -91,10 +101,12 @@ class Shelf {
     std::vector<x3d::Problem> problems{};
     std::uint64_t used = 0;
   };
-  struct KnownTitle {
+  /// An exhibit's or a draft's file, as it was read.
+  struct KnownFile {
     std::filesystem::file_time_type changed;
+    std::filesystem::file_time_type read;
     std::uintmax_t size = 0;
-    state::Texts title;
+    ExhibitFacts facts;
   };
   /// The draft as it is read, or what is published.
   [[nodiscard]] ShelfResult<x3d::Document> document_of(const std::string& name, bool drafted);
@@ -112,7 +124,19 @@ class Shelf {
   /// With a look into mesh files. Errors: the draft's.
   [[nodiscard]] ShelfResult<void> check_whole(const std::string& name, const Draft& draft) const;
   const std::vector<x3d::Problem>& problems_of(const std::string& name, Open& open);
-  [[nodiscard]] state::Texts title_of(const std::filesystem::path& file);
+  /// Of an exhibit as it is published or drafted; nothing of a file that is not there or cannot be read.
+  [[nodiscard]] const ExhibitFacts& facts_of(const std::string& name, bool drafted);
+  /// By path in the museum, who names it: drafts, and what is published where its draft does not name it in the same place.
+  using FileUses = std::map<std::string, std::vector<FileUse>>;
+  [[nodiscard]] FileUses all_uses();
+  void add_exhibit_items(std::vector<CatalogueItem>& items);
+  void add_file_items(const FileUses& uses, std::vector<CatalogueItem>& items) const;
+  /// What is written of a file; of the museum's own the note of its licence, and of a sound the languages of the steps that play it.
+  [[nodiscard]] Record about_file(const std::string& path, const RecordMap& records, const FileUses& uses) const;
+  /// What is said of files goes with their copies, which have these names among an exhibit's.
+  void copy_records(const std::string& to, const std::map<std::string, std::string>& names);
+  /// The mesh or sound of such a path; empty: there is none.
+  [[nodiscard]] std::filesystem::path museum_file(const std::string& path) const;
   [[nodiscard]] Expected<std::string> first_text(const std::string& name, const std::string& from);
   [[nodiscard]] DraftFiles files_of(const std::string& name) const;
   /// Those in the folder `files` of `from` that the text names; see copy_used().
@@ -122,11 +146,13 @@ class Shelf {
   [[nodiscard]] std::filesystem::path exhibit_file(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> exhibit_names() const;
   [[nodiscard]] std::vector<std::string> draft_names() const;
+  [[nodiscard]] std::vector<std::string> all_names() const;
 
   std::filesystem::path scenarios_;
   std::filesystem::path state_;
+  Records records_;
   std::map<std::string, Open> open_;
-  std::map<std::filesystem::path, KnownTitle> titles_;
+  std::map<std::filesystem::path, KnownFile> known_;
   std::uint64_t uses_ = 0;
 };
 

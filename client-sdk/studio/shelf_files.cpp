@@ -35,16 +35,17 @@ ShelfJson json_of(const std::vector<authoring::MergeNote>& notes) {
 }  // namespace
 
 ShelfResult<std::string> Shelf::files(const std::string& name) {
-  const auto text = document_of(name, true);
-  if (!text) return tl::unexpected(text.error());
+  if (const auto opened = open(name); !opened) return tl::unexpected(opened.error());
+  auto uses = all_uses();
   ShelfJson list = ShelfJson::array();
   for (const DraftFile& file : files_of(name).all()) {
+    const std::string url = fmt::format("{}/{}", kFilesFolder, file.name);
     list.push_back({{"name", file.name},
-                    {"url", fmt::format("{}/{}", kFilesFolder, file.name)},
+                    {"url", url},
                     {"kind", file.sound ? "sound" : "mesh"},
                     {"bytes", file.bytes},
                     {"published", file.published},
-                    {"uses", json_of(uses_of_file(*text, file.name))}});
+                    {"uses", json_of(uses[fmt::format("{}/{}", name, url)])}});
   }
   return shelf_text({{"files", std::move(list)}});
 }
@@ -61,17 +62,18 @@ ShelfResult<std::string> Shelf::add_file(const std::string& name, const std::str
 ShelfResult<std::string> Shelf::remove_file(const std::string& name, const std::string& file) {
   auto opened = open(name);
   if (!opened) return tl::unexpected(opened.error());
-  ShelfFault used{{ErrorCode::conflict, file + " is used", "", "remove what uses it, and publish the draft"}};
-  for (const bool drafted : {true, false}) {
-    const auto text = document_of(name, drafted);
-    if (!text && (drafted || text.error().error.code != ErrorCode::not_found)) return tl::unexpected(text.error());
-    if (!text) continue;
-    for (const FileUse& use : uses_of_file(*text, file))
-      used.uses.push_back({drafted ? use.place : "the published exhibit, " + use.place, use.line});
+  const std::string path = fmt::format("{}/{}/{}", name, kFilesFolder, file);
+  if (std::vector<FileUse> uses = all_uses()[path]; !uses.empty()) {
+    const FileUse& first = uses.front();
+    ShelfFault used{{ErrorCode::conflict,
+                     fmt::format("{} is used by {} in {} {}", file, first.place,
+                                 first.draft ? "the draft of" : "the published exhibit", first.exhibit),
+                     "", "remove what uses it, and publish the drafts that had it"}};
+    used.uses = std::move(uses);
+    return tl::unexpected(std::move(used));
   }
-  if (!used.uses.empty()) used.error.what += " by " + used.uses.front().place;
-  if (!used.uses.empty()) return tl::unexpected(std::move(used));
   if (auto removed = files_of(name).remove(file); !removed) return shelf_fault(removed.error());
+  (void)records_.put({{path, {}}});  // where it cannot be written, the catalogue tells why
   (*opened)->checked = -1;
   return files(name);
 }
@@ -161,6 +163,10 @@ ShelfResult<std::string> Shelf::merge(const std::string& name, std::int64_t revi
   if (!added) return shelf_fault(added.error());
   const auto step = [&] { return (*opened)->draft.step("add " + other, added->text, author); };
   if (auto done = put_files(files, added->files, step); !done) return shelf_fault(done.error());
+  std::map<std::string, std::string> copied;
+  for (const ArchiveSource& source : added->files)
+    copied[source.name] = fmt::format("{}/{}/{}", other, kFilesFolder, source.path.filename().string());
+  copy_records(name, copied);
   auto view = view_of(name, **opened);
   if (!view) return view;
   ShelfJson answer = ShelfJson::parse(*view);

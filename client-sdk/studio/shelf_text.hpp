@@ -1,4 +1,4 @@
-// What the files shelf*.cpp share. For them only.
+// JSON of the shelf and its catalogue. For the .cpp files of this room only.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/studio/records.hpp"
 #include "client-sdk/studio/shelf_fault.hpp"
 
 namespace mechane::studio {
@@ -34,9 +35,10 @@ inline constexpr std::string_view kFromExhibit = "exhibit:";
 [[nodiscard]] inline ShelfJson json_of(const std::vector<FileUse>& uses) {
   ShelfJson list = ShelfJson::array();
   for (const FileUse& use : uses)
-    list.push_back({{"place", use.place}, {"line", use.line}});
+    list.push_back({{"place", use.place}, {"line", use.line}, {"exhibit", use.exhibit}, {"draft", use.draft}});
   return list;
 }
+[[nodiscard]] ShelfJson json_of(const Record& record);
 
 /// As an exhibit of another name than it had: a server cannot have two with one id.
 [[nodiscard]] Expected<std::string> text_named(std::string_view text, const std::string& was, const std::string& name,

@@ -1,13 +1,11 @@
 #include "server/scenario/facts.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include <fmt/format.h>
 
 #include "server/scenario/compiler.hpp"
 #include "server/scenario/file_finder.hpp"
 #include "server/scenario/file_references.hpp"
+#include "server/scenario/head_facts.hpp"
 #include "server/x3d/document.hpp"
 #include "server/x3d/metadata.hpp"
 #include "server/x3d/values.hpp"
@@ -55,46 +53,6 @@ Wordings wordings_of(const state::WorldDescription& world) {
   return wordings;
 }
 
-/// X3D's own meta names, after Dublin Core. Where a name is given twice, both contents are kept.
-void read_meta(const std::string& name, const std::string& content, ScenarioFacts& facts) {
-  struct Place {
-    std::string_view name;
-    std::string content::Credits::*into;
-  };
-  static constexpr std::array<Place, 8> kPlaces{{{"license", &content::Credits::licence},
-                                                 {"licence", &content::Credits::licence},
-                                                 {"rights", &content::Credits::licence},
-                                                 {"creator", &content::Credits::author},
-                                                 {"author", &content::Credits::author},
-                                                 {"reference", &content::Credits::source},
-                                                 {"source", &content::Credits::source},
-                                                 {"version", &content::Credits::version}}};
-  const auto place = std::ranges::find(kPlaces, name, &Place::name);
-  if (place != kPlaces.end()) {
-    std::string& into = facts.credits.*place->into;
-    if (into.find(content) == std::string::npos) into += (into.empty() ? "" : "; ") + content;
-  }
-  if (name != "keywords" && name != "subject") return;
-  for (std::size_t at = 0; at < content.size();) {
-    const std::size_t end = std::min(content.find(',', at), content.size());
-    const std::size_t first = content.find_first_not_of(' ', at);
-    if (first < end) facts.tags.push_back(content.substr(first, content.find_last_not_of(' ', end - 1) - first + 1));
-    at = end + 1;
-  }
-}
-
-void read_head(const x3d::Document& document, ScenarioFacts& facts) {
-  for (const x3d::NodeId head : document.child_elements(document.x3d())) {
-    if (document[head].name != "head") continue;
-    for (const x3d::NodeId meta : document.child_elements(head)) {
-      const std::string* name = document[meta].attribute("name");
-      const std::string* content = document[meta].attribute("content");
-      if (document[meta].name == "meta" && name != nullptr && content != nullptr && !content->empty())
-        read_meta(*name, *content, facts);
-    }
-  }
-}
-
 void read_files(const x3d::Document& document, ScenarioFacts& facts) {
   for (const FileReference& reference : file_references(document)) {
     const std::string name = x3d::name_of(document, reference.node);
@@ -125,7 +83,9 @@ Expected<ScenarioFacts> read_facts(const std::filesystem::path& file) {
   for (const state::StepDescription& step : world->steps) {
     if (!step.opens.empty()) facts.opens.insert(step.opens);
   }
-  read_head(*document, facts);
+  HeadFacts head = head_facts(*document);
+  facts.credits = std::move(head.credits);
+  facts.tags = std::move(head.tags);
   read_files(*document, facts);
   return facts;
 }

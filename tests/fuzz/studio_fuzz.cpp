@@ -10,8 +10,11 @@
 
 #include "client-sdk/authoring/reference_example.hpp"
 #include "client-sdk/studio/apply.hpp"
+#include "client-sdk/studio/catalogue.hpp"
 #include "client-sdk/studio/command.hpp"
+#include "client-sdk/studio/fold.hpp"
 #include "client-sdk/studio/journal.hpp"
+#include "client-sdk/studio/records.hpp"
 #include "server/x3d/document.hpp"
 
 namespace {
@@ -51,6 +54,18 @@ void look_at(const studio::CommandList& list) {
   must_hold(x3d::read_document(applied->text, "fuzz.x3d", problems).has_value());
 }
 
+/// What is read is written so that it is read again, and is found by its own words.
+void look_at(const studio::RecordMap& records) {
+  const auto again = studio::parse_records(studio::records_json(records));
+  must_hold(again && *again == records);
+  for (const auto& [path, record] : records) {
+    const studio::CatalogueItem item{.kind = studio::ItemKind::mesh, .name = path, .path = path, .about = record};
+    must_hold(studio::fits(item, {.text = record.description}));
+    for (const std::string& tag : record.tags)
+      must_hold(studio::fits(item, {.kind = "mesh", .tag = tag}));
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -60,6 +75,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t i = 0; i < journal->lines.size(); ++i)
       must_hold(journal->lines[i].revision == journal->revision + static_cast<std::int64_t>(i) + 1);
   }
+  must_hold(studio::folded(studio::folded(text)) == studio::folded(text));
+  if (const auto records = studio::parse_records(text)) look_at(*records);
+  const auto about = studio::parse_about(text);
+  must_hold(about || !about.error().remedy.empty());
+  if (about) look_at({{about->path, about->about}});
   const auto list = studio::parse_command_list(text);
   if (list)
     look_at(*list);

@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import shutil
 import subprocess
 import unittest
@@ -207,6 +208,34 @@ class Studio(WithGateway):
         shown = subprocess.run(["node", script, *(self.scenarios / f"{name}/{name}.x3d" for name in edits)], capture_output=True,
                                text=True, timeout=120 * PATIENCE)
         self.assertEqual(shown.returncode, 0, shown.stdout + shown.stderr)
+        self.assertEqual(process.stop(), 0, process.text()[-2000:])
+
+    @marked("draws")
+    def test_the_catalogue_finds_what_another_exhibit_has_and_who_uses_it(self):
+        process, operator = self.gateway("--scenarios", self.scenarios)
+        self.posted(operator, "/api/accounts", {"user": "tablet", "role": "visitor", "password": "a-long-password"})
+        tablet = self.page("tablet", "a-long-password")
+        for page, status in ((Page(self.port), 401), (tablet, 403)):
+            self.assertEqual(page.get("/api/studio/catalogue")[0], status)
+        self.posted(tablet, "/api/studio/catalogue/about", {"path": "models/archimedes-screw.glb", "about": {}}, 403)
+        for name in ("first", "second"):
+            self.posted(operator, "/api/studio/drafts", {"name": name, "from": "template:empty"})
+        body = {"op": "insert", "url": "../first/files/gear.obj", "node": "block", "mass": 4.2, "name": "GEAR", "position": [2, 1, 0]}
+        self.posted(operator, "/api/studio/drafts/second/commands", {"revision": 0, "commands": [body]})
+        mesh = self.folder / "gear.obj"
+        mesh.write_text(BLOCK)
+        script = ROOT / "client-sdk/web/tests/browser/catalogue.mjs"
+        folder = os.environ.get("MECHANE_PICTURES", "")
+        done = subprocess.run(["node", script, f"http://127.0.0.1:{self.port}", self.password, mesh, *([folder] if folder else [])],
+                              capture_output=True, text=True, timeout=300 * PATIENCE)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((self.folder / "state/studio/second/files/gear.obj").read_text(), BLOCK)
+        self.posted(operator, "/api/studio/drafts/first/files/gear.obj/delete", {}, 409)
+        tagged = self.got(operator, "/api/studio/catalogue?kind=mesh&tag=%CE%9E%CE%A5%CE%9B%CE%9F&licence=CC-BY-4.0")["items"]
+        self.assertEqual([one["path"] for one in tagged], ["first/files/gear.obj", "second/files/gear.obj"])
+        self.assertEqual(operator.get("/api/studio/catalogue?kind=film")[0], 400)
+        self.posted(operator, "/api/studio/drafts/second/take", {"path": "../state/accounts.json"}, 404)
+        self.assertIn("<meta name='license' content='CC0-1.0'/>", operator.get("/api/studio/drafts/first/text")[2].decode())
         self.assertEqual(process.stop(), 0, process.text()[-2000:])
 
     @marked("draws")

@@ -15,7 +15,8 @@ export type Command =
   | { op: 'delete'; node: string }
   | { op: 'move'; node: string; pose: PoseArray }
   | { op: 'join'; kind: JointKind; body1: string; body2?: string; anchor?: Vector; axis?: Vector; name: string }
-  | { op: 'view'; pose: PoseArray; fieldOfView: number };
+  | { op: 'view'; pose: PoseArray; fieldOfView: number }
+  | { op: 'meta'; name: string; value: string };
 export type Vector = [number, number, number];
 export type JointKind = 'hinge' | 'slider' | 'ball';
 export type RenameKind = 'thing' | 'quantity' | 'activity' | 'step' | 'visit' | 'effect';

@@ -1,6 +1,14 @@
 // Meshes and sounds of a draft, as the gateway lists them, and what a body of a mesh weighs.
 import { fields, list, number, text } from '../console/api';
 
+/** A place where an exhibit names a file. */
+export interface FileUse {
+  place: string;
+  line: number;
+  exhibit: string;
+  /** It is in its draft; otherwise only in what is published. */
+  draft: boolean;
+}
 export interface DraftFile {
   name: string;
   /** As the exhibit names it. */
@@ -8,7 +16,8 @@ export interface DraftFile {
   kind: 'mesh' | 'sound';
   bytes: number;
   published: boolean;
-  uses: { place: string; line: number }[];
+  /** By all exhibits. */
+  uses: FileUse[];
 }
 export interface MeshNode {
   name: string;
@@ -24,9 +33,11 @@ export const kEndings = ['.glb', '.obj', '.stl', '.ply', '.x3d', '.ogg', '.wav',
 export const kDensities = { oak: 700, pine: 500, stone: 2600, bronze: 8700, iron: 7800, lead: 11300 } as const;
 export type Material = keyof typeof kDensities;
 
+export const usesOf = (v: unknown): FileUse[] => list(v).map(fields).map((use) => (
+  { place: text(use.place), line: number(use.line), exhibit: text(use.exhibit), draft: use.draft === true }));
 export const filesOf = (v: unknown): DraftFile[] => list(fields(v).files).map(fields).map((f) => ({
   name: text(f.name), url: text(f.url), kind: f.kind === 'sound' ? 'sound' : 'mesh', bytes: number(f.bytes),
-  published: f.published === true, uses: list(f.uses).map(fields).map((use) => ({ place: text(use.place), line: number(use.line) })),
+  published: f.published === true, uses: usesOf(f.uses),
 }));
 export const nodesOf = (v: unknown): MeshNode[] => list(fields(v).nodes).map(fields)
   .map((n) => ({ name: text(n.name), volume: typeof n.volume === 'number' ? n.volume : null }));

@@ -1,6 +1,7 @@
 // The studio's requests, over an author's Api.
 import { Api, ApiError, fields, list, text } from '../console/api';
 import { reduce, kNothingKnown, type KioskState } from '../wire/messages';
+import { catalogueOf, queryText, type About, type Catalogue, type Query } from './catalogue';
 import type { DraftRequests, Order } from './draft';
 import { filesOf, nodesOf, type DraftFile, type MeshNode } from './files';
 import { previewOf, type Pacing, type Preview } from './preview';
@@ -33,6 +34,17 @@ export const studio = (api: Api) => ({
     nodesOf(await api.json('GET', `${at(name, '/files')}/${encodeURIComponent(file)}`)),
   deleteFile: async (name: string, file: string): Promise<DraftFile[]> =>
     filesOf(await api.json('POST', `${at(name, '/files')}/${encodeURIComponent(file)}/delete`, {})),
+  catalogue: async (query: Query): Promise<Catalogue> => catalogueOf(await api.json('GET', `/api/studio/catalogue?${queryText(query)}`)),
+  /** Says of a mesh or sound what it is; `before`: what its author has seen. */
+  describe: (path: string, about: About, before: About): Promise<unknown> =>
+    api.json('POST', '/api/studio/catalogue/about', { path, about, before }),
+  /** The name that it has among the draft's files then. */
+  take: async (name: string, path: string): Promise<string> => text(fields(await api.json('POST', at(name, '/take'), { path })).taken),
+  /** Edits a draft that is not open here, as it is now. */
+  edit: async (name: string, commands: unknown[]): Promise<void> => {
+    const { revision } = viewOf(await api.json('GET', at(name)));
+    if (commands.length > 0) await api.json('POST', at(name, '/commands'), { revision, commands });
+  },
   /** The draft with all that it uses, as one file. */
   exported: (name: string): Promise<Blob> => api.file(at(name, '/export')),
   imported: async (name: string, bytes: Blob): Promise<View> => viewOf(await api.json('POST', at(name, '/import'), bytes)),

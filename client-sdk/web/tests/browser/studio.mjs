@@ -399,7 +399,7 @@ const parts = {
   },
   async 'a mesh is brought in, another of its name only when asked, and becomes a body'() {
     await go('Files');
-    await page.waitForSelector('li:has-text("bell.ogg") small:has-text("used by MetadataString (line 61)")');
+    await page.waitForSelector('li:has-text("bell.ogg") small:has-text("used by audio.el of lift (line 61), catapult: ")');
     const bring = (text) => page.setInputFiles('input[type=file]', { name: 'Τροχός 2.GLB', mimeType: '', buffer: Buffer.from(text) });
     await bring('glTF 1');
     await page.waitForSelector('[role=status]:text-is("2.glb was added.")');
@@ -408,7 +408,10 @@ const parts = {
     await page.waitForSelector('[role=status]:text-is("2.glb was added.")');
     assert.equal(gateway.files.at(-1).said, 'glTF 2');
     await accessible('files');
-    assert.equal(await page.isVisible('li:has-text("bell.ogg") button'), false, 'it is used');
+    await page.click('button[aria-label="Delete: bell.ogg"]');
+    await page.waitForSelector('dialog:has-text("bell.ogg is used") li:text-is("catapult: audio.el of throw, line 40")');
+    await accessible('used');
+    await page.click('dialog button:text-is("Close")');
     await page.setInputFiles('input[type=file]', { name: 'old.ply', mimeType: '', buffer: Buffer.from('ply') });
     await page.click('button[aria-label="Delete: old.ply"]');
     await page.click('dialog button.main');

@@ -141,7 +141,8 @@ export class StudioStandIn extends StandIn {
   asked = [];
   versions = [];
   files = [{ name: 'bell.ogg', said: 'OggS', url: 'files/bell.ogg', kind: 'sound', bytes: 48213, published: true,
-    uses: [{ place: 'MetadataString', line: 61 }] }];
+    uses: [{ place: 'audio.el of lift', line: 61, exhibit: 'my-crane', draft: true },
+      { place: 'audio.el of throw', line: 40, exhibit: 'catapult', draft: false }] }];
   published = 0;
 
   constructor(app) {

@@ -117,6 +117,21 @@ export const kEnglishHelp: HelpWords = {
       tips: ['Meshes are in metres. A mesh with holes has no volume, so its weight must be written.',
         'Simplify scans first: fifty thousand triangles are enough for a thing on a table.'],
     },
+    catalogue: {
+      title: 'Catalogue',
+      what: 'The catalogue lists all that the museum has: exhibits and drafts, meshes and sounds, templates and parts. Use again what a ' +
+        'colleague has made, and find out who uses what.',
+      how: [
+        'Write a word of what you look for. Capitals and accents do not matter; two words must both be there.',
+        'Choose a kind, a tag, a licence or a language to see only those.',
+        'To use a mesh or a sound of another exhibit, open your draft, then Files, then From the catalogue, and press Take into this ' +
+          'draft. You get a copy: if the other changes, yours stays.',
+        'Press What it is to write a description, the licence and tags, so that others find it and know whether they may use it.',
+        'Open “Used in” below a file to see in which exhibits and lines it is.',
+      ],
+      tips: ['A file without a licence cannot be shown elsewhere with a clear conscience: write it when you add the file.',
+        'Tags in Greek and in English find it for everybody.'],
+    },
     try: {
       title: 'Try it',
       what: 'The draft runs here just as visitors will find it, in a world of its own. Nothing changes for visitors.',

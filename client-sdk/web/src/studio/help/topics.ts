@@ -5,7 +5,8 @@ import type { PartName } from '../workspace.svelte';
 import { kEnglishHelp } from './english';
 import { kGreekHelp } from './greek';
 
-export const kTopics = ['begin', 'picture', 'things', 'joints', 'steps', 'words', 'files', 'try', 'versions', 'publish', 'keys'] as const;
+export const kTopics = ['begin', 'picture', 'things', 'joints', 'steps', 'words', 'files', 'catalogue', 'try', 'versions', 'publish',
+  'keys'] as const;
 export type TopicName = (typeof kTopics)[number];
 export interface Topic {
   title: string;

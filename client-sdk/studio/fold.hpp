@@ -1,0 +1,13 @@
+// Words as a search compares them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mechane::studio {
+
+/// Small letters without accents, Latin and Greek, polytonic too; a sigma at the end is one like the others. Other characters stay, and a
+/// byte that is no UTF-8 becomes '?'. Folded again it stays as it is.
+[[nodiscard]] std::string folded(std::string_view text);
+
+}  // namespace mechane::studio
