@@ -131,6 +131,7 @@ std::vector<DraftFile> DraftFiles::names() const {
   auto both = files_in(draft_);
   both.insert(theirs.begin(), theirs.end());
   std::vector<DraftFile> out;
+  out.reserve(both.size());
   for (const auto& [name, bytes] : both)
     out.push_back({name, bytes, kind_of(name)->sound, theirs.contains(name)});
   return out;

@@ -1,5 +1,7 @@
 #include "client-sdk/studio/exhibit_facts.hpp"
 
+#include <fmt/format.h>
+
 #include "server/content/catalogue.hpp"
 #include "server/scenario/file_references.hpp"
 #include "server/scenario/head_facts.hpp"
@@ -33,7 +35,7 @@ void read_opened(const x3d::Document& document, ExhibitFacts& facts) {
     for (const std::string& exhibit : ids ? *ids : std::vector<std::string>()) {
       const x3d::NodeId step = document[id].parent;
       facts.uses.push_back(
-          {exhibit + "/" + exhibit + ".x3d", "step " + x3d::name_of(document, step), document[id].line, ""});
+          {fmt::format("{0}/{0}.x3d", exhibit), "step " + x3d::name_of(document, step), document[id].line, ""});
     }
   }
 }

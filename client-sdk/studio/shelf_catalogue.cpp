@@ -62,7 +62,7 @@ std::vector<std::string> Shelf::all_names() const {
   std::vector<std::string> names = draft_names(), exhibits = exhibit_names();
   names.insert(names.end(), exhibits.begin(), exhibits.end());
   std::ranges::sort(names);
-  names.erase(std::ranges::unique(names).begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
@@ -121,7 +121,7 @@ void Shelf::add_exhibit_items(std::vector<CatalogueItem>& items) {
     const ExhibitFacts& facts = facts_of(name, drafted);
     CatalogueItem& item = items.emplace_back();
     item.name = item.exhibit = name;
-    item.path = name + "/" + name + ".x3d";
+    item.path = fmt::format("{0}/{0}.x3d", name);
     item.title = facts.title;
     item.bytes = size_of(drafted ? state_ / name / "draft.x3d" : exhibit_file(name));
     item.published = std::ranges::binary_search(exhibits, name);

@@ -62,6 +62,9 @@ ShelfResult<std::string> Shelf::add_file(const std::string& name, const std::str
 ShelfResult<std::string> Shelf::remove_file(const std::string& name, const std::string& file) {
   auto opened = open(name);
   if (!opened) return tl::unexpected(opened.error());
+  // What cannot be read may use it.
+  if (const auto text = document_of(name, false); !text && text.error().error.code != ErrorCode::not_found)
+    return tl::unexpected(text.error());
   const std::string path = fmt::format("{}/{}/{}", name, kFilesFolder, file);
   if (std::vector<FileUse> uses = all_uses()[path]; !uses.empty()) {
     const FileUse& first = uses.front();

@@ -1,6 +1,8 @@
 // Drafts on the shelf: whose they are, who was first, what is published and what is kept.
 #include "client-sdk/studio/shelf.hpp"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -316,6 +318,10 @@ TEST(Shelf, AFileIsDeletedThatNothingUses) {
   ASSERT_EQ(list.size(), 1U);
   EXPECT_EQ(list[0]["name"], "unused.ogg");
   EXPECT_FALSE(fs::exists(published));
+  const std::string whole = text_of(museum.screw());
+  std::ofstream(museum.screw()) << "<X3D";
+  EXPECT_FALSE(shelf.remove_file(name, "unused.ogg")) << "what visitors have may use it";
+  std::ofstream(museum.screw()) << whole;
   list = right(shelf.remove_file(name, "unused.ogg"))["files"];
   EXPECT_TRUE(list.empty());
   for (const char* file : {"unused.ogg", "", "..", "../draft.x3d", "no-such.ply"})
