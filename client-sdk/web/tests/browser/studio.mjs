@@ -245,7 +245,7 @@ const parts = {
     await page.waitForSelector('.question:has-text("1. liked")');
     await accessible('questions');
     await page.locator('.answer').first().scrollIntoViewIfNeeded();
-    await page.click('button:text-is("Hide")');
+    await page.click('header button:text-is("Hide")');
     await accessible('answers', 'dark');
     await page.selectOption('.question:has-text("2. why") select', 'scale');
     await page.waitForSelector('.answer', { state: 'detached' });
