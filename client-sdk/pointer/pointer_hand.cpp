@@ -93,6 +93,7 @@ void PointerHand::press(const picture::Sight& sight, picture::PixelPlace place, 
   pointer_ = place;
   touched_ = touched;
   p_BT_.reset();
+  p_WT_.reset();
   fetched_ = 0;
   phase_ = Phase::reaching;
   phase_s_ = 0;
@@ -175,14 +176,26 @@ void PointerHand::reach(double dt_s, const PointerSenses& senses) {
   const double ahead = (p_WT - X_WH_.p).dot(away_W_);
   const bool beside = (X_WH_.p - p_WT + ahead * away_W_).norm() > kClosesAt_m;
   if (beside && grasp_ == 0) {
+    p_WT_.reset();
     go_towards(before_W, kTravelSpeed_m_per_s, dt_s);
     return;
   }
+  go_with(p_WT, dt_s);
   const Vec3 into_W = p_WT + kInto_m * away_W_;
   const double gap_m = (into_W - X_WH_.p).norm();
   go_towards(into_W, std::clamp(kSlowing_per_s * gap_m, kTouchSpeed_m_per_s, kReachSpeed_m_per_s), dt_s);
   if ((X_WH_.p - p_WT).norm() < kClosesAt_m && phase_s_ > kOpens_s) grasp_ = 1;
   if (senses.holding && grasp_ > 0) grip(senses);
+}
+
+/// A thing that drifts away, as weightless ones do after a push, would stay ahead of a hand that slows near it.
+void PointerHand::go_with(const Vec3& p_WT, double dt_s) {
+  owed_W_ = p_WT_ ? Vec3(owed_W_ + p_WT - *p_WT_) : Vec3::Zero();
+  p_WT_ = p_WT;
+  const double owed_m = owed_W_.norm(), most_m = kDragSpeed_m_per_s * dt_s;
+  const Vec3 step_W = owed_m > most_m ? Vec3(owed_W_ * (most_m / owed_m)) : owed_W_;
+  X_WH_.p += step_W;
+  owed_W_ -= step_W;
 }
 
 void PointerHand::grip(const PointerSenses& senses) {
@@ -301,6 +314,7 @@ void PointerHand::lose(const PointerSenses& senses) {
   if (home || !senses.leeway.taken || fetched_ >= kFetches) return let_go();
   ++fetched_;
   p_BT_ = X_BH_.p;
+  p_WT_.reset();
   phase_ = Phase::reaching;
   phase_s_ = 0;
   grasp_ = 0;

@@ -70,6 +70,7 @@ class PointerHand {
 
  private:
   void reach(double dt_s, const PointerSenses& senses);
+  void go_with(const Vec3& p_WT, double dt_s);
   void grip(const PointerSenses& senses);
   void begin_turn(const AffordanceLine& axle);
   void hold(double dt_s, const PointerSenses& senses);
@@ -98,6 +99,8 @@ class PointerHand {
   double empty_s_ = 0;          // holding: time since the hand last held something
   Vec3 away_W_ = Vec3::Zero();  // unit, along the pressed pixel's ray
   std::optional<Vec3> p_BT_;    // the pressed point, in the object's frame
+  std::optional<Vec3> p_WT_;    // where a hand that is before it saw it last
+  Vec3 owed_W_ = Vec3::Zero();  // how far it has moved since, as far as the hand has not gone with it
   Pose X_BH_;                   // of the hand in the held thing, at the grip
   double depth_m_ = 0;          // carry: depth of the plane in which the pointer drags
   double gripped_depth_m_ = 0;
