@@ -15,6 +15,8 @@ constexpr double kReachSpeed_m_per_s = 0.5;
 // A hanging thing swings away from a faster hand before the hand has closed.
 constexpr double kTouchSpeed_m_per_s = 0.06;
 constexpr double kSlowing_per_s = 6;
+// From in front of a thing that stays, it is there after half of this time.
+constexpr double kArrives_s = 1.0;
 constexpr double kTravelSpeed_m_per_s = 2.0;
 constexpr double kDragSpeed_m_per_s = 1.2;
 constexpr double kTurnSpeed_rad_per_s = 1.5;
@@ -94,6 +96,7 @@ void PointerHand::press(const picture::Sight& sight, picture::PixelPlace place, 
   touched_ = touched;
   p_BT_.reset();
   p_WT_.reset();
+  near_s_ = 0;
   fetched_ = 0;
   phase_ = Phase::reaching;
   phase_s_ = 0;
@@ -180,7 +183,8 @@ void PointerHand::reach(double dt_s, const PointerSenses& senses) {
     go_towards(before_W, kTravelSpeed_m_per_s, dt_s);
     return;
   }
-  go_with(p_WT, dt_s);
+  near_s_ += dt_s;
+  if (near_s_ > kArrives_s) go_with(p_WT, dt_s);
   const Vec3 into_W = p_WT + kInto_m * away_W_;
   const double gap_m = (into_W - X_WH_.p).norm();
   go_towards(into_W, std::clamp(kSlowing_per_s * gap_m, kTouchSpeed_m_per_s, kReachSpeed_m_per_s), dt_s);
@@ -188,7 +192,8 @@ void PointerHand::reach(double dt_s, const PointerSenses& senses) {
   if (senses.holding && grasp_ > 0) grip(senses);
 }
 
-/// A thing that drifts away, as weightless ones do after a push, would stay ahead of a hand that slows near it.
+/// A thing that drifts away, as weightless ones do after a push, stays ahead of a hand that slows near it. One that only yields to the
+/// hand is not gone after: it would be pushed on.
 void PointerHand::go_with(const Vec3& p_WT, double dt_s) {
   owed_W_ = p_WT_ ? Vec3(owed_W_ + p_WT - *p_WT_) : Vec3::Zero();
   p_WT_ = p_WT;
@@ -315,6 +320,7 @@ void PointerHand::lose(const PointerSenses& senses) {
   ++fetched_;
   p_BT_ = X_BH_.p;
   p_WT_.reset();
+  near_s_ = 0;
   phase_ = Phase::reaching;
   phase_s_ = 0;
   grasp_ = 0;

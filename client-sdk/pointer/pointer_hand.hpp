@@ -99,6 +99,7 @@ class PointerHand {
   double empty_s_ = 0;          // holding: time since the hand last held something
   Vec3 away_W_ = Vec3::Zero();  // unit, along the pressed pixel's ray
   std::optional<Vec3> p_BT_;    // the pressed point, in the object's frame
+  double near_s_ = 0;           // reaching: how long it has been before the thing
   std::optional<Vec3> p_WT_;    // where a hand that is before it saw it last
   Vec3 owed_W_ = Vec3::Zero();  // how far it has moved since, as far as the hand has not gone with it
   Pose X_BH_;                   // of the hand in the held thing, at the grip
