@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/studio/request_fields.hpp"
 #include "server/base/utf8.hpp"
 
 namespace mechane::studio {
@@ -22,13 +23,9 @@ constexpr std::array<std::string_view, 3> kJointKinds{"hinge", "slider", "ball"}
 constexpr double kWidestView_rad = 3.1;
 constexpr std::array<std::string_view, 6> kNameKinds{"thing", "quantity", "activity", "step", "visit", "effect"};
 
-/// Reads fields of one object. After the first wrong one, fault() says which it was.
-class CommandFields {
+class CommandFields : public RequestFields {
  public:
-  CommandFields(const CommandJson& object, std::string where) : object_(object), where_(std::move(where)) {
-    if (!object_.is_object()) blame("", "an object {...}");
-  }
-  [[nodiscard]] bool has(const char* name) const { return object_.is_object() && object_.contains(name); }
+  using RequestFields::RequestFields;
 
   std::string text(const char* name, std::size_t longest = kLongestPath) {
     const CommandJson* value = find(name);
@@ -97,18 +94,6 @@ class CommandFields {
     blame(name, "a number, true, false, a text, or a list of numbers or of texts");
     return false;
   }
-  const CommandJson* find(const char* name) const { return has(name) ? &object_[name] : nullptr; }
-  void blame(std::string_view field, std::string_view what) {
-    if (!fault_.empty()) return;
-    where_ += where_.empty() || field.empty() ? "" : "/";
-    where_ += field;
-    fault_ = what;
-  }
-  [[nodiscard]] bool right() const { return fault_.empty(); }
-  [[nodiscard]] tl::unexpected<Error> fault() const {
-    return fail(ErrorCode::invalid_value, "this request is not as it should be", where_, "write " + fault_);
-  }
-  [[nodiscard]] const std::string& where() const { return where_; }
 
  private:
   static std::optional<state::Parameter> value_of(const CommandJson& given) {
@@ -128,22 +113,13 @@ class CommandFields {
     if (texts.size() == count) return state::Parameter(std::move(texts));
     return std::nullopt;
   }
-
-  const CommandJson& object_;
-  std::string where_;
-  std::string fault_;
 };
 
 Expected<CommandJson> parse_json(std::string_view text) {
   if (text.size() > kMostCommandBytes)
     return fail(ErrorCode::too_large, "this request is too long", "", "send fewer commands at a time");
-  bool too_deep = false;
-  const auto watch = [&too_deep](int depth, CommandJson::parse_event_t, CommandJson&) {
-    too_deep = too_deep || depth > kDeepest;
-    return !too_deep;
-  };
-  CommandJson json = CommandJson::parse(text, watch, false);
-  if (too_deep || !json.is_object())
+  CommandJson json = parse_shallow(text, kDeepest);
+  if (!json.is_object())
     return fail(ErrorCode::invalid_value, "this request is not a JSON object", "", "send an object {...}");
   return json;
 }

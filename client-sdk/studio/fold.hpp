@@ -6,8 +6,8 @@
 
 namespace mechane::studio {
 
-/// Small letters without accents, Latin and Greek, polytonic too; a sigma at the end is one like the others. Other characters stay, and a
-/// byte that is no UTF-8 becomes '?'. Folded again it stays as it is.
+/// Small letters without accents, Latin and Greek, polytonic too; a sigma at the end is one like the others. Other characters stay. A
+/// byte that is not valid UTF-8 becomes '?'. Folding a folded text changes nothing.
 [[nodiscard]] std::string folded(std::string_view text);
 
 }  // namespace mechane::studio

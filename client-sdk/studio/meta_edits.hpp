@@ -9,8 +9,9 @@
 
 namespace mechane::studio {
 
-/// Writes the content of a <meta>, and makes the element and the head where there is none. Of several that say the same only this one
-/// stays; where the value is empty, none. Errors: unknown_name, of a name that is none of scenario::same_meta_names().
+/// Sets the content of a <meta>; adds the element, and the head, where they are missing. Where several elements have the same meaning, the
+/// first is written and the others are removed; an empty value removes all of them. Errors: unknown_name, where
+/// scenario::same_meta_names() does not know the name.
 [[nodiscard]] Expected<std::string> with_meta(const x3d::Document& document, const SetMeta& meta);
 
 }  // namespace mechane::studio

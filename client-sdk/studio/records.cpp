@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/studio/command.hpp"
+#include "client-sdk/studio/request_fields.hpp"
 #include "client-sdk/studio/shelf_text.hpp"
 #include "server/base/utf8.hpp"
 #include "server/base/whole_file.hpp"
@@ -21,23 +22,21 @@ constexpr int kDeepestRecord = 6;
 constexpr std::size_t kLongestDescription = 2'000, kLongestCredit = 500, kLongestTag = 60, kMostTags = 30,
                       kLongestPathText = 500;
 
-/// Reads one object. After the first wrong field, fault() names it.
-class RecordFields {
+class RecordFields : public RequestFields {
  public:
-  RecordFields(const RecordJson& object, std::string where) : object_(object), where_(std::move(where)) {
-    if (!object_.is_object()) blame("", "an object {...}");
-  }
+  using RequestFields::RequestFields;
   std::string text(const char* name, std::size_t longest) {
-    if (!has(name)) return {};
-    return right_text(object_[name], name, longest);
+    const RecordJson* value = find(name);
+    return value == nullptr ? std::string() : right_text(*value, name, longest);
   }
   std::vector<std::string> texts(const char* name, std::size_t longest) {
     std::vector<std::string> out;
-    if (!has(name)) return out;
-    const RecordJson& list = object_[name];
-    if (!list.is_array() || list.size() > kMostTags) blame(name, fmt::format("a list of {} texts at most", kMostTags));
-    for (std::size_t i = 0; fault_.empty() && i < list.size(); ++i) {
-      std::string one = right_text(list[i], fmt::format("{}/{}", name, i), longest);
+    const RecordJson* list = find(name);
+    if (list == nullptr) return out;
+    if (!list->is_array() || list->size() > kMostTags)
+      blame(name, fmt::format("a list of {} texts at most", kMostTags));
+    for (std::size_t i = 0; right() && i < list->size(); ++i) {
+      std::string one = right_text((*list)[i], fmt::format("{}/{}", name, i), longest);
       if (!one.empty() && std::ranges::find(out, one) == out.end()) out.push_back(std::move(one));
     }
     return out;
@@ -57,17 +56,6 @@ class RecordFields {
     std::ranges::sort(out.languages);
     return out;
   }
-  [[nodiscard]] bool has(const char* name) const { return object_.is_object() && object_.contains(name); }
-  void blame(std::string_view field, std::string_view what) {
-    if (!fault_.empty()) return;
-    where_ += where_.empty() || field.empty() ? "" : "/";
-    where_ += field;
-    fault_ = what;
-  }
-  [[nodiscard]] bool right() const { return fault_.empty(); }
-  [[nodiscard]] tl::unexpected<Error> fault() const {
-    return fail(ErrorCode::invalid_value, "this request is not as it should be", where_, "write " + fault_);
-  }
 
  private:
   std::string right_text(const RecordJson& value, std::string_view name, std::size_t longest) {
@@ -80,22 +68,7 @@ class RecordFields {
     blame(name, fmt::format("a text of at most {} bytes", longest));
     return {};
   }
-
-  const RecordJson& object_;
-  std::string where_;
-  std::string fault_;
 };
-
-/// Discarded where it is none, or goes too deep.
-RecordJson parsed(std::string_view text) {
-  bool too_deep = false;
-  const auto watch = [&too_deep](int depth, RecordJson::parse_event_t, RecordJson&) {
-    too_deep = too_deep || depth > kDeepestRecord;
-    return !too_deep;
-  };
-  RecordJson json = RecordJson::parse(text, watch, false);
-  return too_deep ? RecordJson() : json;
-}
 
 tl::unexpected<Error> damaged_records(const std::string& where) {
   return fail(
@@ -117,7 +90,7 @@ ShelfJson json_of(const Record& record) {
 Expected<AboutRequest> parse_about(std::string_view text) {
   if (text.size() > kMostCommandBytes)
     return fail(ErrorCode::too_large, "this request is too long", "", "write less of the file");
-  const RecordJson json = parsed(text);
+  const RecordJson json = parse_shallow(text, kDeepestRecord);
   RecordFields fields(json, "");
   AboutRequest request;
   request.path = fields.text("path", kLongestPathText);
@@ -136,7 +109,7 @@ Expected<AboutRequest> parse_about(std::string_view text) {
 
 Expected<RecordMap> parse_records(std::string_view text) {
   if (text.size() > Records::kMostBytes) return damaged_records("");
-  const RecordJson json = parsed(text);
+  const RecordJson json = parse_shallow(text, kDeepestRecord);
   const RecordJson* files = json.is_object() && json.contains("files") ? &json["files"] : nullptr;
   if (files == nullptr || !files->is_object()) return damaged_records("");
   RecordMap out;

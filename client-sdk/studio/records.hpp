@@ -45,7 +45,7 @@ class Records {
 
   explicit Records(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// None where there is no file. Errors: io_failure; too_large; damaged.
+  /// Empty while the file does not exist. Errors: io_failure; too_large; damaged.
   [[nodiscard]] Expected<RecordMap> all() const;
   /// Writes these; what is empty goes, and others stay. Errors: those of all(); too_large; io_failure, and then all is as it was.
   [[nodiscard]] Expected<void> put(const RecordMap& records) const;

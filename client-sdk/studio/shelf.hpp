@@ -135,7 +135,7 @@ class Shelf {
   [[nodiscard]] Record about_file(const std::string& path, const RecordMap& records, const FileUses& uses) const;
   /// What is said of files goes with their copies, which have these names among an exhibit's.
   void copy_records(const std::string& to, const std::map<std::string, std::string>& names);
-  /// The mesh or sound of such a path; empty: there is none.
+  /// The mesh or sound at this path in the museum; empty where it does not exist.
   [[nodiscard]] std::filesystem::path museum_file(const std::string& path) const;
   [[nodiscard]] Expected<std::string> first_text(const std::string& name, const std::string& from);
   [[nodiscard]] DraftFiles files_of(const std::string& name) const;

@@ -23,7 +23,7 @@ struct HeadFacts {
 /// The <meta> elements of the head that have a name, in the order written.
 [[nodiscard]] std::vector<x3d::NodeId> meta_elements(const x3d::Document& document);
 
-/// The names that say the same as this one, itself first: X3D's own, after Dublin Core. Empty: it is none that is read here.
+/// All names with the meaning of this one, and this one among them: X3D's own names, after Dublin Core. Empty for a name that is not read.
 [[nodiscard]] std::span<const std::string_view> same_meta_names(std::string_view name);
 
 }  // namespace mechane::scenario
