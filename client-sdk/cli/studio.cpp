@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/authoring/editor.hpp"
-#include "client-sdk/studio/apply.hpp"
-#include "client-sdk/studio/bundle.hpp"
-#include "client-sdk/studio/draft_files.hpp"
-#include "client-sdk/studio/history.hpp"
-#include "client-sdk/studio/schema_json.hpp"
-#include "client-sdk/studio/shelf.hpp"
-#include "client-sdk/studio/view.hpp"
+#include "client-sdk/studio/draft/bundle.hpp"
+#include "client-sdk/studio/draft/draft_files.hpp"
+#include "client-sdk/studio/draft/history.hpp"
+#include "client-sdk/studio/edits/apply.hpp"
+#include "client-sdk/studio/shelf/shelf.hpp"
+#include "client-sdk/studio/view/schema_json.hpp"
+#include "client-sdk/studio/view/view.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/file_finder.hpp"
 

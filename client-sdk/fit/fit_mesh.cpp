@@ -9,7 +9,7 @@
 #include "server/collision/object_io.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"
-#include "server/geometry/mesh_orient.hpp"
+#include "server/geometry/solid/mesh_orient.hpp"
 
 namespace mechane::fit {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "server/base/math.hpp"
 #include "server/collision/object.hpp"
-#include "server/geometry/solid_mesh.hpp"
+#include "server/geometry/solid/solid_mesh.hpp"
 
 namespace mechane::fit {
 

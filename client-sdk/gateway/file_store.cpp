@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "client-sdk/gateway/request_path.hpp"
-#include "client-sdk/studio/shapes_glb.hpp"
+#include "client-sdk/gateway/http/request_path.hpp"
+#include "client-sdk/studio/view/shapes_glb.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/content/content_hash.hpp"
 #include "server/content/mesh_import.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "client-sdk/gateway/http_types.hpp"
+#include "client-sdk/gateway/http/http_types.hpp"
 
 namespace mechane::gateway {
 

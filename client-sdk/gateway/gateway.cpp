@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "client-sdk/gateway/certificate.hpp"
-#include "client-sdk/gateway/secrets.hpp"
+#include "client-sdk/gateway/http/certificate.hpp"
+#include "client-sdk/gateway/sign_in/secrets.hpp"
 #include "client-sdk/gateway/site.hpp"
 #include "server/log/log.hpp"
 #include <mechane/proto/identity.hpp>

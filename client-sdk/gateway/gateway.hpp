@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "client-sdk/gateway/web_server.hpp"
+#include "client-sdk/gateway/http/web_server.hpp"
 
 namespace mechane::gateway {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "client-sdk/gateway/operations/wake_on_lan.hpp"
 #include "client-sdk/gateway/operator_api.hpp"
-#include "client-sdk/gateway/wake_on_lan.hpp"
 #include "server/log/log.hpp"
 
 namespace mechane::gateway {

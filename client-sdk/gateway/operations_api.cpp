@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/operations/wake_on_lan.hpp"
 #include "client-sdk/gateway/operator_api.hpp"
-#include "client-sdk/gateway/wake_on_lan.hpp"
 
 namespace mechane::gateway {
 namespace {

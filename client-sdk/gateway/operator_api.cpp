@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/gateway/exhibit_api.hpp"
+#include "client-sdk/gateway/http/request_path.hpp"
+#include "client-sdk/gateway/http/security_headers.hpp"
 #include "client-sdk/gateway/operations_api.hpp"
-#include "client-sdk/gateway/request_path.hpp"
-#include "client-sdk/gateway/secrets.hpp"
-#include "client-sdk/gateway/security_headers.hpp"
+#include "client-sdk/gateway/sign_in/secrets.hpp"
 #include "client-sdk/gateway/studio_api.hpp"
 #include "client-sdk/gateway/visits_api.hpp"
 #include "server/log/log.hpp"

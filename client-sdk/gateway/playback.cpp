@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "client-sdk/gateway/browser_text.hpp"
+#include "client-sdk/gateway/browsers/browser_text.hpp"
 #include "server/base/byte_order.hpp"
 #include "server/base/program_folder.hpp"
 #include "server/base/whole_file.hpp"

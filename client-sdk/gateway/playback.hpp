@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "client-sdk/gateway/backstage.hpp"
-#include "client-sdk/gateway/frame_bytes.hpp"
+#include "client-sdk/gateway/browsers/backstage.hpp"
 #include "client-sdk/gateway/gateway.hpp"
+#include "client-sdk/gateway/http/frame_bytes.hpp"
 #include "server/content/child_process.hpp"
 #include "server/visits/visit_record.hpp"
 #include <mechane/client/client.hpp>

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/gateway/studio_api.hpp"
-#include "client-sdk/studio/command.hpp"
-#include "client-sdk/studio/shelf.hpp"
+#include "client-sdk/studio/edits/command.hpp"
+#include "client-sdk/studio/shelf/shelf.hpp"
 
 namespace mechane::gateway {
 namespace {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "client-sdk/gateway/http/security_headers.hpp"
 #include "client-sdk/gateway/operator_api.hpp"
-#include "client-sdk/gateway/secrets.hpp"
-#include "client-sdk/gateway/security_headers.hpp"
+#include "client-sdk/gateway/sign_in/secrets.hpp"
 #include "client-sdk/gateway/studio_api.hpp"
-#include "client-sdk/studio/preview_file.hpp"
+#include "client-sdk/studio/draft/preview_file.hpp"
 #include "server/base/program_folder.hpp"
 #include "server/log/log.hpp"
 #include <mechane/proto/identity.hpp>

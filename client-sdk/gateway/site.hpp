@@ -10,18 +10,18 @@
 #include <optional>
 #include <string>
 
-#include "client-sdk/gateway/accounts.hpp"
-#include "client-sdk/gateway/audit_log.hpp"
+#include "client-sdk/gateway/browsers/kiosk_hub.hpp"
+#include "client-sdk/gateway/drafts/preview_desk.hpp"
+#include "client-sdk/gateway/drafts/studio_desk.hpp"
 #include "client-sdk/gateway/file_store.hpp"
 #include "client-sdk/gateway/gateway.hpp"
-#include "client-sdk/gateway/kiosk_hub.hpp"
 #include "client-sdk/gateway/kiosk_keeper.hpp"
-#include "client-sdk/gateway/operations.hpp"
+#include "client-sdk/gateway/operations/operations.hpp"
+#include "client-sdk/gateway/operations/visits_desk.hpp"
 #include "client-sdk/gateway/playback.hpp"
-#include "client-sdk/gateway/preview_desk.hpp"
-#include "client-sdk/gateway/sessions.hpp"
-#include "client-sdk/gateway/studio_desk.hpp"
-#include "client-sdk/gateway/visits_desk.hpp"
+#include "client-sdk/gateway/sign_in/accounts.hpp"
+#include "client-sdk/gateway/sign_in/audit_log.hpp"
+#include "client-sdk/gateway/sign_in/sessions.hpp"
 #include <mechane/client/exhibits.hpp>
 
 namespace mechane::gateway {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
+#include "client-sdk/gateway/drafts/studio_scene.hpp"
 #include "client-sdk/gateway/preview_api.hpp"
-#include "client-sdk/gateway/studio_scene.hpp"
-#include "client-sdk/studio/archive.hpp"
-#include "client-sdk/studio/schema_json.hpp"
+#include "client-sdk/studio/draft/archive.hpp"
+#include "client-sdk/studio/view/schema_json.hpp"
 #include "server/base/utf8.hpp"
 
 namespace mechane::gateway {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "client-sdk/gateway/site.hpp"
-#include "client-sdk/studio/shelf.hpp"
+#include "client-sdk/studio/shelf/shelf.hpp"
 
 namespace mechane::gateway {
 

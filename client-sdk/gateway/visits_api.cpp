@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "client-sdk/gateway/visits_json.hpp"
+#include "client-sdk/gateway/operations/visits_json.hpp"
 #include "server/visits/visit_csv.hpp"
 #include <mechane/proto/names.hpp>
 

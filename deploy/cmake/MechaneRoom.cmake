@@ -4,12 +4,16 @@ if(MECHANE_SANITIZE)
   mechane_precompiled(light_rooms OPTIONS -O0)
 endif()
 
-# A room is a folder with one static library: mechane::<name>, from every .cpp in the folder.
-#   mechane_room(NAME name [FAST] [EXCLUDE file.cpp...] PUBLIC lib... PRIVATE lib...)
+# A room is a folder with one static library: mechane::<name>, from every .cpp in the folder and in the FOLDERS within it.
+#   mechane_room(NAME name [FAST] [FOLDERS folder...] [EXCLUDE file.cpp...] PUBLIC lib... PRIVATE lib...)
 # FAST: a room of the client that computes, and is optimised under the sanitizers, too.
 function(mechane_room)
-  cmake_parse_arguments(ROOM "FAST" "NAME" "EXCLUDE;PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  cmake_parse_arguments(ROOM "FAST" "NAME" "FOLDERS;EXCLUDE;PUBLIC;PRIVATE" ${ARGN})
+  set(patterns "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  foreach(folder IN LISTS ROOM_FOLDERS)
+    list(APPEND patterns "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   foreach(excluded IN LISTS ROOM_EXCLUDE)
     list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/${excluded}")
   endforeach()

@@ -7,7 +7,7 @@
 
 #include "server/collision/radial_map.hpp"
 #include "server/collision_build/solid.hpp"
-#include "server/geometry/cut_plane.hpp"
+#include "server/geometry/pieces/cut_plane.hpp"
 
 namespace mechane::collision_build {
 

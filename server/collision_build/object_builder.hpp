@@ -11,9 +11,9 @@
 #include "server/base/error.hpp"
 #include "server/collision/object.hpp"
 #include "server/collision_build/choose_map.hpp"
-#include "server/geometry/fit.hpp"
+#include "server/geometry/fitting/fit.hpp"
 #include "server/geometry/mesh.hpp"
-#include "server/geometry/solid_mesh.hpp"
+#include "server/geometry/solid/solid_mesh.hpp"
 
 namespace mechane::collision_build {
 

@@ -5,7 +5,7 @@
 
 #include "server/base/error.hpp"
 #include "server/base/math.hpp"
-#include "server/geometry/fit.hpp"
+#include "server/geometry/fitting/fit.hpp"
 
 namespace mechane::collision_build {
 

@@ -9,8 +9,8 @@
 #include "server/collision_build/cast_map.hpp"
 #include "server/collision_build/object_builder.hpp"
 #include "server/collision_build/solid.hpp"
-#include "server/geometry/decompose.hpp"
 #include "server/geometry/mesh.hpp"
+#include "server/geometry/pieces/decompose.hpp"
 
 namespace mechane::collision_build {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "server/base/error.hpp"
-#include "server/geometry/solid_mesh.hpp"
+#include "server/geometry/solid/solid_mesh.hpp"
 #include "server/scenario/solid.hpp"
 #include "server/state/description.hpp"
 #include "server/x3d/document.hpp"

@@ -53,6 +53,13 @@ ARROWS = {
     "client-sdk/examples": ["client-sdk/client"],
 }
 
+# The folders within a room, "." being the room's own. A folder may include those before it. Other rooms may include any of them.
+FOLDERS = {
+    "server/geometry": [".", "solid", "fitting", "pieces"],
+    "client-sdk/studio": ["edits", "draft", "view", "shelf"],
+    "client-sdk/gateway": ["http", "sign_in", "browsers", "operations", "drafts", "."],
+}
+
 # These run in the tick, or are read by what does: no log there. Every other room may use it.
 NO_LOG = {"server/base", "server/geometry", "server/collision", "server/collision_build", "server/state", "server/dynamics", "server/haptics",
           "server/machines", "server/agents", "server/hand", "server/realtime"}
@@ -113,6 +120,20 @@ def room_of_include(name: str) -> str | None:
     return None
 
 
+def folder_fault(room: str, path: Path, name: str) -> str | None:
+    """What is wrong when a file of a room includes another of the same room."""
+    order = FOLDERS.get(room)
+    if order is None:
+        return None
+    own, other = (str(Path(file).parent.relative_to(room)) for file in (path, name))
+    for folder in (own, other):
+        if folder not in order:
+            return f"{room} has no folder '{folder}' in the table of folders in includes.py"
+    if order.index(other) > order.index(own):
+        return f"{room}/{own} comes before {room}/{other}, so it may not include \"{name}\": see the table of folders in ARCHITECTURE.md"
+    return None
+
+
 def may_include(room: str, other: str) -> bool:
     if other == room or other in reachable(room):
         return True
@@ -140,7 +161,8 @@ def include_fault(room: str, path: Path, name: str, quoted: bool) -> tuple[str, 
             return "arrow", f'"{name}" belongs to a program of its own, which runs apart from this one'
         if not may_include(room, other):
             return "arrow", f"{room} may not include {other} (\"{name}\"): see the table of rooms in ARCHITECTURE.md"
-        return None
+        wrong = folder_fault(room, path, name) if other == room else None
+        return ("arrow", wrong) if wrong else None
     library = library_fault(room, path, name)
     if library:
         return "third-party", library
@@ -172,10 +194,20 @@ def rooms_of_page(text: str) -> dict[str, list[str]]:
     return found
 
 
-def libraries_of_page(text: str) -> dict[str, list[str]]:
-    block = re.search(r"^\| library \| rooms \|\n\|[-|]+\|\n((?:\|.*\n)+)", text, re.MULTILINE)
+def table_of_page(text: str, head: str) -> dict[str, list[str]]:
+    block = re.search(rf"^\| {head} \|\n\|[-|]+\|\n((?:\|.*\n)+)", text, re.MULTILINE)
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in block[1].splitlines()] if block else []
-    return {row[0]: sorted(full_name(name.strip()) for name in row[1].split(",")) for row in rows}
+    return {row[0]: [name.strip() for name in row[1].split(",")] for row in rows}
+
+
+def libraries_of_page(text: str) -> dict[str, list[str]]:
+    return {library: sorted(map(full_name, rooms)) for library, rooms in table_of_page(text, r"library \| rooms").items()}
+
+
+def folders_of_page(text: str) -> dict[str, list[str]]:
+    """The table's rows name a room's own folder by the room."""
+    rows = table_of_page(text, r"room \| its folders, each may include those before it")
+    return {full_name(room): ["." if folder == room else folder for folder in folders] for room, folders in rows.items()}
 
 
 def page_faults(root: Path) -> list[Fault]:
@@ -185,6 +217,7 @@ def page_faults(root: Path) -> list[Fault]:
     faults = []
     for what, shown, held in (
             ("rooms", rooms_of_page(text), {room: sorted(others) for room, others in ARROWS.items()}),
+            ("folders", folders_of_page(text), FOLDERS),
             ("libraries", libraries_of_page(text), {name: sorted(rooms) for name, (_, rooms) in LIBRARIES.items()})):
         for name in sorted(shown.keys() | held.keys()):
             if shown.get(name) != held.get(name):

@@ -27,7 +27,9 @@ def short(rooms) -> str:
 PAGE = "## Rooms and who may include whom\n\n```\n" + "".join(
     f"{'proto/' if room == 'proto' else room.replace('/', '/ ')}  what it is,\n            and what for  -> {short(arrows)}\n"
     for room, arrows in includes.ARROWS.items()) + "```\n\n| library | rooms |\n|---|---|\n" + "".join(
-    f"| {library} | {short(rooms)} |\n" for library, (_, rooms) in includes.LIBRARIES.items())
+    f"| {library} | {short(rooms)} |\n" for library, (_, rooms) in includes.LIBRARIES.items()) + (
+    "\n| room | its folders, each may include those before it |\n|---|---|\n") + "".join(
+    f"| {short([room])} | {', '.join(folders).replace('.', short([room]))} |\n" for room, folders in includes.FOLDERS.items())
 
 SOUND = {
     "ARCHITECTURE.md": PAGE,
@@ -46,6 +48,8 @@ SOUND = {
     "proto/mechane/proto/p.hpp": "#pragma once\n#include <dds/dds.h>\n",
     "client-sdk/client/CMakeLists.txt": "mechane_room(NAME client)\n",
     "client-sdk/client/c.cpp": "#include <mechane/proto/p.hpp>\n#include <mechane/client/client.hpp>\n",
+    "server/geometry/CMakeLists.txt": "mechane_room(NAME geometry)\n",
+    "server/geometry/solid/s.cpp": '#include "server/geometry/g.hpp"\n',
     "server/content/CMakeLists.txt": "mechane_room(NAME content)\n",
     "server/content/importer/io.hpp": "#pragma once\n#include <assimp/scene.h>\n",
     "tests/unit/base/CMakeLists.txt": "mechane_test_folder(NAME base)\n",
@@ -71,6 +75,8 @@ PLANTED = [
     ("arrow", "server/garden/rose.hpp", "#pragma once\n"),
     ("arrow", "server/world/w.cpp", '#include "server/transport/t.hpp"\n'),
     ("arrow", "client-sdk/client/c.cpp", '#include "server/state/s.hpp"\n'),
+    ("arrow", "server/geometry/g.hpp", '#pragma once\n#include "server/geometry/pieces/p.hpp"\n'),
+    ("arrow", "server/geometry/rest/r.cpp", '#include "server/geometry/g.hpp"\n'),
     ("arrow", "server/world/w.cpp", "#include <mechane/proto/p.hpp>\n"),
     ("arrow", "server/content/c.cpp", '#include "server/content/importer/io.hpp"\n'),
     ("third-party", "server/dynamics/d.hpp", "#pragma once\n#include <btBulletDynamicsCommon.h>\n"),
@@ -215,6 +221,7 @@ bool operator==(const P& a, const P& b) {
 class Table(unittest.TestCase):
     def test_the_page_is_read_whole(self):
         self.assertEqual(set(includes.ARROWS), set(includes.rooms_of_page(PAGE)))
+        self.assertEqual(includes.FOLDERS, includes.folders_of_page(PAGE))
 
     def test_the_four_rooms_of_the_tick_never_meet(self):
         four = {"server/dynamics", "server/haptics", "server/machines", "server/agents"}

@@ -7,6 +7,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
+from includes import FOLDERS
 from source_tree import HEADER_SUFFIXES, Fault, cpp_files, line_of, read, run, without_comments
 
 PROGRAMS = {("tests", "fuzz"), ("tests", "benchmark")}  # each source, or a few, a program
@@ -56,10 +57,10 @@ def shadowing(text: str) -> list[tuple[str, int]]:
 
 
 def _home(path: Path) -> Path:
-    """What is compiled together: a folder; the room `draw` with its folders; and of the drivers all but the module of each."""
-    draw, drivers = Path("client-sdk/draw"), Path("client-sdk/drivers")
-    if path.is_relative_to(draw):
-        return draw
+    """What is compiled together: a folder; a room with its folders; and of the drivers all but the module of each."""
+    room, drivers = Path(*path.parts[:2]), Path("client-sdk/drivers")
+    if str(room) in FOLDERS or room == Path("client-sdk/draw"):
+        return room
     return drivers if path.is_relative_to(drivers) and path.name != "driver.cpp" else path.parent
 
 

@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/base/parallel.hpp"
-#include "server/geometry/fit.hpp"
+#include "server/geometry/fitting/fit.hpp"
 #include "tests/benchmark/bench_stats.hpp"
 #include "tests/support/superquadric_draw.hpp"
 

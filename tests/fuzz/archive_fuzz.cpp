@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
-#include "client-sdk/studio/archive.hpp"
-#include "client-sdk/studio/draft.hpp"
-#include "client-sdk/studio/draft_files.hpp"
+#include "client-sdk/studio/draft/archive.hpp"
+#include "client-sdk/studio/draft/draft.hpp"
+#include "client-sdk/studio/draft/draft_files.hpp"
 
 namespace {
 

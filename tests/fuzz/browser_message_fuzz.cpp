@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "client-sdk/gateway/browser_message.hpp"
-#include "client-sdk/gateway/visits_query.hpp"
+#include "client-sdk/gateway/browsers/browser_message.hpp"
+#include "client-sdk/gateway/operations/visits_query.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "client-sdk/gateway/operations.hpp"
+#include "client-sdk/gateway/operations/operations.hpp"
 #include "client-sdk/gateway/preview_api.hpp"
 
 namespace {

@@ -10,10 +10,10 @@
 
 #include <unistd.h>
 
-#include "client-sdk/gateway/accounts.hpp"
-#include "client-sdk/gateway/request_path.hpp"
-#include "client-sdk/gateway/security_headers.hpp"
-#include "client-sdk/gateway/sessions.hpp"
+#include "client-sdk/gateway/http/request_path.hpp"
+#include "client-sdk/gateway/http/security_headers.hpp"
+#include "client-sdk/gateway/sign_in/accounts.hpp"
+#include "client-sdk/gateway/sign_in/sessions.hpp"
 
 namespace {
 

@@ -9,12 +9,12 @@
 #include <string_view>
 
 #include "client-sdk/authoring/reference_example.hpp"
-#include "client-sdk/studio/apply.hpp"
-#include "client-sdk/studio/catalogue.hpp"
-#include "client-sdk/studio/command.hpp"
-#include "client-sdk/studio/fold.hpp"
-#include "client-sdk/studio/journal.hpp"
-#include "client-sdk/studio/records.hpp"
+#include "client-sdk/studio/draft/journal.hpp"
+#include "client-sdk/studio/edits/apply.hpp"
+#include "client-sdk/studio/edits/command.hpp"
+#include "client-sdk/studio/shelf/catalogue.hpp"
+#include "client-sdk/studio/shelf/fold.hpp"
+#include "client-sdk/studio/shelf/records.hpp"
 #include "server/x3d/document.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "client-sdk/gateway/tracked_message.hpp"
-#include "client-sdk/gateway/tracked_motion.hpp"
+#include "client-sdk/gateway/browsers/tracked_message.hpp"
+#include "client-sdk/gateway/browsers/tracked_motion.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "server/base/assert.hpp"
 #include "server/collision/samples.hpp"
-#include "server/geometry/fit.hpp"
+#include "server/geometry/fitting/fit.hpp"
 #include "tests/benchmark/collision/culling.hpp"
 #include "tests/benchmark/collision/method.hpp"
 #include "tests/benchmark/collision/resolution.hpp"

@@ -11,7 +11,7 @@
 #include "server/base/assert.hpp"
 #include "server/collision/samples.hpp"
 #include "server/collision_build/object_builder.hpp"
-#include "server/geometry/decompose.hpp"
+#include "server/geometry/pieces/decompose.hpp"
 #include "tests/benchmark/collision/culling.hpp"
 #include "tests/benchmark/collision/fcl_common.hpp"
 #include "tests/benchmark/collision/method.hpp"

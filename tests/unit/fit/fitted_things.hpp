@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "client-sdk/fit/fitted_object.hpp"
-#include "server/geometry/mesh_orient.hpp"
+#include "server/geometry/solid/mesh_orient.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace mechane::fit {

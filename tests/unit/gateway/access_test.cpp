@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "client-sdk/gateway/accounts.hpp"
-#include "client-sdk/gateway/audit_log.hpp"
-#include "client-sdk/gateway/certificate.hpp"
-#include "client-sdk/gateway/kiosk_tokens.hpp"
-#include "client-sdk/gateway/rate_limit.hpp"
-#include "client-sdk/gateway/secrets.hpp"
-#include "client-sdk/gateway/sessions.hpp"
+#include "client-sdk/gateway/http/certificate.hpp"
+#include "client-sdk/gateway/http/rate_limit.hpp"
+#include "client-sdk/gateway/sign_in/accounts.hpp"
+#include "client-sdk/gateway/sign_in/audit_log.hpp"
+#include "client-sdk/gateway/sign_in/kiosk_tokens.hpp"
+#include "client-sdk/gateway/sign_in/secrets.hpp"
+#include "client-sdk/gateway/sign_in/sessions.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::gateway {

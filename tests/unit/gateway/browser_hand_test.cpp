@@ -1,8 +1,8 @@
-#include "client-sdk/gateway/browser_hand.hpp"
+#include "client-sdk/gateway/browsers/browser_hand.hpp"
 
 #include <gtest/gtest.h>
 
-#include "client-sdk/gateway/browser_text.hpp"
+#include "client-sdk/gateway/browsers/browser_text.hpp"
 
 namespace mechane::gateway {
 namespace {

@@ -1,4 +1,4 @@
-#include "client-sdk/gateway/browser_message.hpp"
+#include "client-sdk/gateway/browsers/browser_message.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "client-sdk/gateway/frame_bytes.hpp"
+#include "client-sdk/gateway/http/frame_bytes.hpp"
 
 #include <bit>
 

@@ -1,6 +1,6 @@
 // Opening hours: read from JSON, and the state at a time. Times are of Athens, whose clock is set on the last Sundays of March
 // and October.
-#include "client-sdk/gateway/opening_hours.hpp"
+#include "client-sdk/gateway/operations/opening_hours.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // What operators order: stored, read again, ended in time; and waking a machine.
-#include "client-sdk/gateway/operations.hpp"
+#include "client-sdk/gateway/operations/operations.hpp"
 
 #include <array>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "client-sdk/gateway/wake_on_lan.hpp"
+#include "client-sdk/gateway/operations/wake_on_lan.hpp"
 #include "tests/support/error_like.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "client-sdk/gateway/played_visit.hpp"
+#include "client-sdk/gateway/drafts/played_visit.hpp"
 
 #include <atomic>
 #include <thread>

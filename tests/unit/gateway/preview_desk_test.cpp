@@ -1,5 +1,5 @@
 // Drafts that are tried, with a script in the server's place and a network that is not opened.
-#include "client-sdk/gateway/preview_desk.hpp"
+#include "client-sdk/gateway/drafts/preview_desk.hpp"
 
 #include <deque>
 #include <mutex>
@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/gateway/preview_api.hpp"
-#include "client-sdk/studio/preview_file.hpp"
+#include "client-sdk/studio/draft/preview_file.hpp"
 #include "tests/support/error_like.hpp"
 #include "tests/support/held_worker.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "client-sdk/gateway/preview_process.hpp"
+#include "client-sdk/gateway/drafts/preview_process.hpp"
 
 #include <chrono>
 #include <future>

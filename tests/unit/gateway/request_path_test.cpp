@@ -1,11 +1,11 @@
-#include "client-sdk/gateway/request_path.hpp"
+#include "client-sdk/gateway/http/request_path.hpp"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "client-sdk/gateway/security_headers.hpp"
+#include "client-sdk/gateway/http/security_headers.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace mechane::gateway {

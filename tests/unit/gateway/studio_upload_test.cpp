@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "client-sdk/gateway/studio_api.hpp"
-#include "client-sdk/studio/archive.hpp"
+#include "client-sdk/studio/draft/archive.hpp"
 
 namespace mechane::gateway {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "client-sdk/gateway/tracked_message.hpp"
-#include "client-sdk/gateway/tracked_motion.hpp"
+#include "client-sdk/gateway/browsers/tracked_message.hpp"
+#include "client-sdk/gateway/browsers/tracked_motion.hpp"
 #include "client-sdk/haptic/seen_hand.hpp"
 
 namespace mechane::gateway {

@@ -1,4 +1,4 @@
-#include "client-sdk/gateway/visits_desk.hpp"
+#include "client-sdk/gateway/operations/visits_desk.hpp"
 
 #include <condition_variable>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client-sdk/gateway/visits_json.hpp"
+#include "client-sdk/gateway/operations/visits_json.hpp"
 #include "server/visits/visit_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 

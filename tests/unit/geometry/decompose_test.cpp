@@ -1,4 +1,4 @@
-#include "server/geometry/decompose.hpp"
+#include "server/geometry/pieces/decompose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include "server/base/random.hpp"
 #include "server/geometry/mesh_check.hpp"
 #include "server/geometry/mesh_query.hpp"
-#include "server/geometry/piece_region.hpp"
+#include "server/geometry/pieces/piece_region.hpp"
 #include "server/geometry/surface_samples.hpp"
 #include "tests/support/error_like.hpp"
 #include "tests/support/sanitizers.hpp"

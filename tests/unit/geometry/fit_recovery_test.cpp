@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "server/geometry/fit.hpp"
+#include "server/geometry/fitting/fit.hpp"
 #include "tests/support/superquadric_draw.hpp"
 
 namespace mechane::geometry {

@@ -1,4 +1,4 @@
-#include "server/geometry/fit_state.hpp"
+#include "server/geometry/fitting/fit_state.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "server/geometry/fit.hpp"
+#include "server/geometry/fitting/fit.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "server/geometry/mesh_orient.hpp"
+#include "server/geometry/solid/mesh_orient.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "server/geometry/solid_mesh.hpp"
+#include "server/geometry/solid/solid_mesh.hpp"
 
 #include <cmath>
 #include <string>

@@ -1,5 +1,5 @@
 // Exhibits as one file: what is written is read again; what is hostile is refused, and leaves nothing.
-#include "client-sdk/studio/archive.hpp"
+#include "client-sdk/studio/draft/archive.hpp"
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client-sdk/studio/shelf.hpp"
+#include "client-sdk/studio/shelf/shelf.hpp"
 #include "server/base/whole_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_files.hpp"

@@ -1,5 +1,5 @@
 // A trial that begins at a step: agents and bodies are as the server's own rules have them there.
-#include "client-sdk/studio/begin_at.hpp"
+#include "client-sdk/studio/edits/begin_at.hpp"
 
 #include <optional>
 

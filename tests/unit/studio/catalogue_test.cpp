@@ -1,5 +1,5 @@
 // What a search finds, and what is read of what people have written.
-#include "client-sdk/studio/catalogue.hpp"
+#include "client-sdk/studio/shelf/catalogue.hpp"
 
 #include <set>
 
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client-sdk/studio/fold.hpp"
+#include "client-sdk/studio/shelf/fold.hpp"
 #include "server/base/random.hpp"
 #include "tests/unit/studio/studio_fixture.hpp"
 

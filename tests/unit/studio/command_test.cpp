@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client-sdk/studio/apply.hpp"
-#include "client-sdk/studio/body_edits.hpp"
-#include "client-sdk/studio/draft_loader.hpp"
-#include "client-sdk/studio/history.hpp"
+#include "client-sdk/studio/draft/draft_loader.hpp"
+#include "client-sdk/studio/draft/history.hpp"
+#include "client-sdk/studio/edits/apply.hpp"
+#include "client-sdk/studio/edits/body_edits.hpp"
 #include "server/base/random.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/file_finder.hpp"

@@ -1,5 +1,5 @@
 // A draft loses nothing that was answered: every revision comes back to the byte, and what a kill or a full disk leaves is told.
-#include "client-sdk/studio/draft.hpp"
+#include "client-sdk/studio/draft/draft.hpp"
 
 #include <csignal>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "client-sdk/studio/apply.hpp"
+#include "client-sdk/studio/edits/apply.hpp"
 #include "server/base/utf8.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_files.hpp"

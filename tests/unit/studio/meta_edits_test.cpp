@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client-sdk/studio/apply.hpp"
-#include "client-sdk/studio/parts.hpp"
+#include "client-sdk/studio/edits/apply.hpp"
+#include "client-sdk/studio/edits/parts.hpp"
 #include "server/scenario/head_facts.hpp"
 #include "tests/support/source_files.hpp"
 #include "tests/unit/studio/studio_fixture.hpp"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client-sdk/studio/shelf.hpp"
+#include "client-sdk/studio/shelf/shelf.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_files.hpp"
 #include "tests/unit/studio/studio_fixture.hpp"

@@ -1,5 +1,5 @@
 // Drafts on the shelf: whose they are, who was first, what is published and what is kept.
-#include "client-sdk/studio/shelf.hpp"
+#include "client-sdk/studio/shelf/shelf.hpp"
 
 #include <fstream>
 
@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client-sdk/studio/parts.hpp"
-#include "client-sdk/studio/preview_file.hpp"
-#include "client-sdk/studio/schema_json.hpp"
-#include "client-sdk/studio/view.hpp"
+#include "client-sdk/studio/draft/preview_file.hpp"
+#include "client-sdk/studio/edits/parts.hpp"
+#include "client-sdk/studio/view/schema_json.hpp"
+#include "client-sdk/studio/view/view.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/mesh_finder.hpp"
 #include "tests/support/scratch_folder.hpp"

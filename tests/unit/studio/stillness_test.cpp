@@ -1,5 +1,5 @@
 // Why bodies stand still: each reason where it holds, and none where it does not.
-#include "client-sdk/studio/stillness.hpp"
+#include "client-sdk/studio/view/stillness.hpp"
 
 #include <algorithm>
 
