@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
-import { aboutOf, catalogueOf, isFiltered, kEverything, metaCommands, queryText, wordsIn, type About } from '../src/studio/catalogue';
-import { catalogueWords } from '../src/studio/catalogue_words';
+import { aboutOf, catalogueOf, isFiltered, kEverything, metaCommands, queryText, wordsIn, type About } from '../src/studio/shelf/catalogue';
+import { catalogueWords } from '../src/studio/shelf/catalogue_words';
 
 const about: About = { description: 'A gear', licence: 'CC0-1.0', author: 'Ελένη', source: '', tags: ['wood', 'ξύλο'], languages: [] };
 

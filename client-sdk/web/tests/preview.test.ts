@@ -1,11 +1,11 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import { Api, ApiError } from '../src/console/api';
 import { Draft } from '../src/studio/draft';
-import { wantedIn } from '../src/studio/flow';
-import { previewOf } from '../src/studio/preview';
-import { PreviewDesk } from '../src/studio/preview_desk.svelte';
-import { lineOf, marksIn, shownTicks, since, spanOf } from '../src/studio/preview_plot';
-import { Series } from '../src/studio/preview_series';
+import { wantedIn } from '../src/studio/flow/flow';
+import { previewOf } from '../src/studio/preview/preview';
+import { PreviewDesk } from '../src/studio/preview/preview_desk.svelte';
+import { lineOf, marksIn, shownTicks, since, spanOf } from '../src/studio/preview/preview_plot';
+import { Series } from '../src/studio/preview/preview_series';
 import { studio } from '../src/studio/requests';
 import { viewOf } from '../src/studio/view';
 

@@ -1,6 +1,6 @@
 // Putting sets of the metadata in another order: steps, activities, questions, triggers, moves.
 import type { Command } from './commands';
-import { stepsIn } from './flow';
+import { stepsIn } from './flow/flow';
 import { child, childSets, metaAt, stringAt, type View } from './view';
 
 const around = (path: string): string => path.split('/').slice(0, -1).join('/');

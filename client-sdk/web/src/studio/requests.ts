@@ -1,11 +1,11 @@
 // The studio's requests, over an author's Api.
 import { Api, ApiError, fields, list, text } from '../console/api';
 import { reduce, kNothingKnown, type KioskState } from '../wire/messages';
-import { catalogueOf, queryText, type About, type Catalogue, type Query } from './catalogue';
+import { catalogueOf, queryText, type About, type Catalogue, type Query } from './shelf/catalogue';
 import type { DraftRequests, Order } from './draft';
-import { filesOf, nodesOf, type DraftFile, type MeshNode } from './files';
-import { previewOf, type Pacing, type Preview } from './preview';
-import { schemaOf, type Schema } from './schema';
+import { filesOf, nodesOf, type DraftFile, type MeshNode } from './shelf/files';
+import { previewOf, type Pacing, type Preview } from './preview/preview';
+import { schemaOf, type Schema } from './inspector/schema';
 import { libraryOf, versionsOf, viewOf, type Library, type Version, type View } from './view';
 
 const at = (name: string, verb = ''): string => `/api/studio/drafts/${encodeURIComponent(name)}${verb}`;

@@ -1,7 +1,7 @@
 // The studio's own words. Names of keys and what they mean come from the server's tables.
 import type { JointKind } from './commands';
-import type { Material } from './files';
-import type { AxisFrame } from './joint';
+import type { Material } from './shelf/files';
+import type { AxisFrame } from './picture/joint';
 import type { Group } from './tree';
 import { kGreek } from './words_greek';
 
