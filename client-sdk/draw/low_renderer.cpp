@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "client-sdk/draw/passes/particles.hpp"
+#include "client-sdk/picture/box_corners.hpp"
 #include "client-sdk/picture/procedural_mesh.hpp"
 #include "server/base/assert.hpp"
 
@@ -39,8 +40,7 @@ Eigen::AlignedBox3f box_of(std::uint32_t mesh, const Eigen::Affine3f& X_WM, cons
   Eigen::AlignedBox3f box_W;
   const GpuAssets::Level whole = assets.level(mesh);
   for (const MeshPiece& piece : std::span(assets.pieces(mesh)).first(whole.end)) {
-    for (int corner = 0; corner < 8; ++corner)
-      box_W.extend(X_WM * piece.box_M.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
+    box_W.extend(picture::moved(piece.box_M, X_WM));
   }
   return box_W;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "client-sdk/picture/box_corners.hpp"
+
 namespace mechane::picture {
 namespace {
 
@@ -112,10 +114,8 @@ double nearest_of(const Eigen::AlignedBox3d& box_W, const Camera& camera) {
   if (box_W.isEmpty()) return 0;
   const Vec3 ahead_W = (camera.p_WT - camera.p_WC).normalized();
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p_W = box_W.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+  for (const Vec3& p_W : corners_of(box_W))
     nearest_m = std::min(nearest_m, ahead_W.dot(p_W - camera.p_WC));
-  }
   return std::max(nearest_m, kArm_m);
 }
 
@@ -127,8 +127,8 @@ Eigen::AlignedBox2d seen_box(const Camera& camera, const Eigen::AlignedBox3d& bo
   Eigen::AlignedBox2d seen;
   if (box_W.isEmpty()) return seen;
   const Mat3 R_CW = axes_of(camera);
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p_C = R_CW * (box_W.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - camera.p_WC);
+  for (const Vec3& p_W : corners_of(box_W)) {
+    const Vec3 p_C = R_CW * (p_W - camera.p_WC);
     if (-p_C.z() < camera.near_m) return {};
     seen.extend(Eigen::Vector2d(p_C.head<2>() / -p_C.z()));
   }
@@ -165,9 +165,8 @@ Camera frame_box(const Eigen::AlignedBox3d& box_W, const Vec3& from_W, double fi
   const double tan_across = kMostAcross * t;
   // The least distance at which every corner is in the picture.
   double distance = 0.3;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
-    const Vec3 p_C = R_CW * sign.cwiseProduct(extent);
+  for (const Vec3& p : corners_of(Eigen::AlignedBox3d(-extent / 2, extent / 2))) {
+    const Vec3 p_C = R_CW * p;
     distance = std::max({distance, (std::abs(p_C.y()) / t + kMost * p_C.z()) / (kMost - kDrop),
                          p_C.z() + std::abs(p_C.x()) / (kMost * tan_across)});
   }

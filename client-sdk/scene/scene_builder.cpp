@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "client-sdk/picture/box_corners.hpp"
 #include "client-sdk/scene/effect_builder.hpp"
 #include "client-sdk/scene/river_reach.hpp"
 #include "client-sdk/scene/thing_names.hpp"
@@ -54,17 +55,6 @@ picture::WaterInstance river_water(const Vec3f& flow_W) {
   water.clearness = 0.12F;
   water.flow_W = flow_W;
   return water;
-}
-
-/// The bounding box in W of a box in B.
-Eigen::AlignedBox3f moved(const Eigen::AlignedBox3f& box_B, const Pose& X_WB) {
-  Eigen::AlignedBox3f box_W;
-  if (box_B.isEmpty()) return box_W;
-  const Eigen::Affine3f X = affine(X_WB);
-  for (int corner = 0; corner < 8; ++corner) {
-    box_W.extend(X * box_B.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
-  }
-  return box_W;
 }
 
 bool is_earth(const ModelPart& part, const picture::SceneAssets& assets) {
@@ -206,7 +196,7 @@ void SceneBuilder::let_grow() {
   LandscapePlan plan;
   for (const Placed& placed : scenery_) {
     if (is_stray(placed.object.X_WB.p)) continue;
-    scenery_W.extend(moved(placed.model->box_B, placed.object.X_WB));
+    scenery_W.extend(picture::moved(placed.model->box_B, affine(placed.object.X_WB)));
     earth = earth || has_earth(*placed.model, library_.assets());
     for (const picture::WaterInstance& reach : placed.reaches)
       add_water(library_.assets().meshes[reach.mesh], reach.X_WM, plan);
@@ -243,7 +233,7 @@ void SceneBuilder::find_place() {
   for (const auto* list : {&objects_, &scenery_}) {
     for (const Placed& placed : *list) {
       if (is_stray(placed.object.X_WB.p)) continue;
-      const Eigen::AlignedBox3f box_W = moved(placed.model->box_B, placed.object.X_WB);
+      const Eigen::AlignedBox3f box_W = picture::moved(placed.model->box_B, affine(placed.object.X_WB));
       box_W_.extend(box_W);
       for (const ModelPart& part : placed.model->parts) {
         if (is_earth(part, library_.assets())) land_material_ = part.material;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "client-sdk/picture/box_corners.hpp"
 #include "client-sdk/scene/hand_shape.hpp"
 
 namespace mechane::scene {
@@ -47,9 +48,8 @@ std::optional<picture::OverlayLabel> label_of(std::span<const picture::NamedThin
   const Eigen::Vector2f reach = Eigen::Vector2f::Constant(kReadTogether * static_cast<float>(sight.picture.height));
   Eigen::AlignedBox2f seen;
   bool whole = true;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3f p_W = thing->X_WB * thing->box_B.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner));
-    const auto pixel = picture::pixel_of(sight, p_W.cast<double>());
+  for (const Vec3f& p_B : picture::corners_of(thing->box_B)) {
+    const auto pixel = picture::pixel_of(sight, (thing->X_WB * p_B).cast<double>());
     whole = whole && pixel;
     if (pixel) seen.extend(Eigen::Vector2f(static_cast<float>(pixel->x), static_cast<float>(pixel->y)));
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "client-sdk/picture/box_corners.hpp"
+
 namespace mechane::scene {
 namespace {
 
@@ -19,8 +21,7 @@ Vec3 nearest_place(const StandingObject& object, const Vec3& p_WQ) {
 }
 
 void add_whole(const StandingObject& object, Box& out) {
-  for (int corner = 0; corner < 8; ++corner)
-    out.extend(object.X_WB * Vec3(object.box_B.corner(static_cast<Box::CornerType>(corner))));
+  out.extend(picture::moved(object.box_B, object.X_WB));
 }
 
 class Step {

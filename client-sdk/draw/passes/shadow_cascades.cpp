@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client-sdk/picture/box_corners.hpp"
+
 namespace mechane::draw {
 namespace {
 
@@ -21,13 +23,6 @@ Eigen::Matrix3f axes_of_sun(const Vec3f& to_sun_W) {
   R_LW.row(1) = back.cross(right);
   R_LW.row(2) = -back;
   return R_LW;
-}
-
-Eigen::AlignedBox3f turned(const Eigen::Matrix3f& R_LW, const Eigen::AlignedBox3f& box_W) {
-  Eigen::AlignedBox3f box_L;
-  for (int corner = 0; corner < 8; ++corner)
-    box_L.extend(R_LW * box_W.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
-  return box_L;
 }
 
 /// Rounds up to a geometric series, so that similar boxes give the same value.
@@ -60,7 +55,7 @@ ShadowSetup shadow_setup(const Eigen::AlignedBox3f& focus_W, const Eigen::Aligne
   const Eigen::AlignedBox3f all =
       all_W.isEmpty() ? Eigen::AlignedBox3f(Vec3f::Constant(-1), Vec3f::Constant(1)) : all_W;
   const Eigen::Matrix3f R_LW = axes_of_sun(to_sun_W);
-  const Eigen::AlignedBox3f all_L = turned(R_LW, all);
+  const Eigen::AlignedBox3f all_L = picture::moved(all, R_LW);
   ShadowSetup out;
   out.X_LW.topLeftCorner<3, 3>() = R_LW;
   out.nearest_m = all_L.min().z() - 0.02F;
@@ -69,7 +64,7 @@ ShadowSetup shadow_setup(const Eigen::AlignedBox3f& focus_W, const Eigen::Aligne
   const float margin = 1 + 4 / static_cast<float>(map_size);
   const float widest_m = stepped(std::max(0.5F * all_L.sizes().head<2>().maxCoeff() * margin, 0.1F));
   if (!focus_W.isEmpty()) {
-    const Eigen::AlignedBox3f focus_L = turned(R_LW, focus_W);
+    const Eigen::AlignedBox3f focus_L = picture::moved(focus_W, R_LW);
     const float radius_m = stepped(std::max(0.5F * focus_W.diagonal().norm() / kCascadeBlend * margin, 0.1F));
     const float ratio = widest_m / radius_m;
     if (ratio > 1.5F) out.cascades.push_back(square(focus_L, radius_m, map_size));
@@ -84,8 +79,8 @@ bool is_shadow_within(const ShadowSetup& setup, std::size_t cascade, const Eigen
   if (cascade == 0 || box_M.isEmpty()) return false;
   const ShadowCascade& inner = setup.cascades[cascade - 1];
   const Eigen::Matrix4f X_LM = setup.X_LW * X_WM.matrix();
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector4f p_L = X_LM * box_M.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)).homogeneous();
+  for (const Eigen::Vector3f& p_M : picture::corners_of(box_M)) {
+    const Eigen::Vector4f p_L = X_LM * p_M.homogeneous();
     // For a soft edge, the shader also samples the surroundings.
     const float away_m = (p_L.head<2>() - inner.middle_L).cwiseAbs().maxCoeff();
     if (away_m > 0.85F * kCascadeBlend * inner.half_m) return false;

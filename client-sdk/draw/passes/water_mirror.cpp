@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "client-sdk/picture/box_corners.hpp"
+
 namespace mechane::draw {
 namespace {
 
@@ -12,8 +14,7 @@ constexpr float kLevel_m = 0.005F;
 Eigen::AlignedBox3f box_of(const picture::WaterInstance& water, const GpuAssets& assets) {
   Eigen::AlignedBox3f box_W;
   for (const MeshPiece& piece : assets.pieces(water.mesh)) {
-    for (int corner = 0; corner < 8; ++corner)
-      box_W.extend(water.X_WM * piece.box_M.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
+    box_W.extend(picture::moved(piece.box_M, water.X_WM));
   }
   return box_W;
 }
