@@ -22,6 +22,7 @@ constexpr std::string_view kDrafts = "/api/studio/drafts/";
 constexpr std::string_view kFiles = "files/";
 constexpr std::string_view kDelete = "/delete";
 constexpr std::string_view kImport = "import";
+constexpr std::string_view kPicture = "picture";
 constexpr std::string_view kCatalogue = "/api/studio/catalogue";
 constexpr std::string_view kAbout = "/api/studio/catalogue/about";
 constexpr std::size_t kLongestPath = 500;
@@ -150,6 +151,10 @@ StudioDesk::Work upload_work(const DraftPath& path, const HttpRequest& request, 
     return [name = path.name, body, author](Shelf& shelf) {
       return answer_of(shelf.unpack(name, std::as_bytes(std::span(*body)), author));
     };
+  if (path.verb == kPicture)
+    return [name = path.name, body](Shelf& shelf) {
+      return answer_of(shelf.set_picture(name, std::as_bytes(std::span(*body))));
+    };
   const bool replace = request.query_value("replace") == "1";
   return [name = path.name, file = path.verb.substr(kFiles.size()), body, replace](Shelf& shelf) {
     return answer_of(shelf.add_file(name, file, std::as_bytes(std::span(*body)), replace));
@@ -203,6 +208,7 @@ std::size_t longest_studio_upload(const std::string& path) {
   const auto draft = draft_path(path);
   if (!draft) return 0;
   if (draft->verb == kImport) return studio::kMostArchiveBytes;
+  if (draft->verb == kPicture) return Shelf::kMostPictureBytes;
   return draft->verb.starts_with(kFiles) && deleted_file(draft->verb).empty() ? studio::DraftFiles::kMostBytes : 0;
 }
 
@@ -227,6 +233,11 @@ bool answer_studio_get(GatewaySite& site, const HttpRequest& request, const Site
   if (path->verb == "export") work = [name](Shelf& shelf) { return archive_answer(name, shelf.pack(name)); };
   if (path->verb == "versions") work = [name](Shelf& shelf) { return answer_of(shelf.versions(name)); };
   if (path->verb == "files") work = [name](Shelf& shelf) { return answer_of(shelf.files(name)); };
+  if (path->verb == kPicture)
+    work = [name](Shelf& shelf) {
+      const auto webp = shelf.picture(name);
+      return webp ? fresh_answer(*webp, "image/webp") : fault_answer(webp.error());
+    };
   if (path->verb.starts_with(kFiles))
     work = [name, file = path->verb.substr(kFiles.size())](Shelf& shelf) {
       return answer_of(shelf.nodes_of_file(name, file));
@@ -247,7 +258,7 @@ bool answer_studio_post(GatewaySite& site, const Session& session, const HttpReq
   if (!tries) work = posted_work(path, request, author_of(session));
   if (!work) return done(fault_answer({work.error()})), true;
   // A draft's history tells of each edit what it was.
-  const bool passing = tries && is_passing(path->verb);
+  const bool passing = path && (is_passing(path->verb) || path->verb == kPicture);
   if (!passing && !site.note(session, request, request.path, tells ? utf8_beginning(request.body, 200) : ""))
     return done(refusal(500, "the audit log cannot be written, so nothing was done", "see the gateway's log")), true;
   if (tries) return answer_preview_post(site, path->name, path->verb, request.body, done), true;

@@ -13,6 +13,7 @@
 #include "client-sdk/studio/shelf/shelf_text.hpp"
 #include "client-sdk/studio/view/view.hpp"
 #include "server/base/whole_file.hpp"
+#include "server/content/content_hash.hpp"
 #include "server/scenario/checker.hpp"
 #include "server/scenario/file_finder.hpp"
 #include "server/scenario/mesh_finder.hpp"
@@ -27,6 +28,16 @@ ShelfJson title_json(const state::Texts& title) {
   for (const auto& [language, text] : title)
     out[language] = text;
   return out;
+}
+
+std::string published() {
+  return shelf_text({{"published", true}});
+}
+
+/// Nothing needs it: where it cannot be copied, the exhibit keeps the one that it had.
+void copy_picture(const fs::path& draft, const fs::path& exhibit) {
+  if (const auto picture = read_whole(draft / kPictureFile, Shelf::kMostPictureBytes))
+    (void)write_whole(exhibit / kPictureFile, *picture, WholeFile::document);
 }
 
 std::vector<std::string> folders_in(const fs::path& folder, const auto& holds) {
@@ -98,7 +109,8 @@ ShelfResult<std::string> Shelf::list() {
   ShelfJson exhibits = ShelfJson::array(), begins = ShelfJson::array();
   for (const std::string& name : names) {
     const bool drafted = std::ranges::binary_search(drafts, name);
-    ShelfJson entry{{"name", name}, {"draft", nullptr}, {"title", ShelfJson::object()}};
+    ShelfJson entry{{"name", name}, {"draft", nullptr}, {"title", ShelfJson::object()}, {"picture", nullptr}};
+    if (const auto picture = picture_bytes(name)) entry["picture"] = content::content_hash(*picture);
     auto opened = drafted ? open(name) : shelf_fault({});
     // A draft that cannot be read is in the list all the same: opening it tells why.
     if (drafted && !opened) entry["draft"] = {{"revision", -1}, {"by", ""}, {"changed_s", 0}, {"problems", 1}};
@@ -336,7 +348,7 @@ ShelfResult<std::string> Shelf::publish(const std::string& name, std::int64_t re
   const std::string_view before = former ? as_text(*former) : std::string_view();
   const fs::path to = file.parent_path() / kFilesFolder;
   if (auto copied = copy_files(name, draft.text(), draft.folder(), to); !copied) return shelf_fault(copied.error());
-  if (former && before == draft.text()) return shelf_text({{"published", true}});
+  if (former && before == draft.text()) return copy_picture(draft.folder(), file.parent_path()), published();
   if (former) {
     const auto kept = Versions(draft.folder() / "versions").add("before publishing", before, author);
     if (!kept) return shelf_fault(kept.error());
@@ -345,7 +357,8 @@ ShelfResult<std::string> Shelf::publish(const std::string& name, std::int64_t re
   fs::create_directories(file.parent_path(), error);
   if (error) return shelf_fault(file_error("cannot be made", file.parent_path(), error.value()));
   if (auto written = authoring::write_file(file, draft.text()); !written) return shelf_fault(written.error());
-  return shelf_text({{"published", true}});
+  copy_picture(draft.folder(), file.parent_path());
+  return published();
 }
 
 ShelfResult<std::string> Shelf::discard(const std::string& name, std::int64_t revision) {

@@ -44,6 +44,7 @@ class Shelf {
  public:
   static constexpr std::size_t kMostDrafts = 500;
   static constexpr std::size_t kMostOpen = 16;  ///< kept in memory
+  static constexpr std::size_t kMostPictureBytes = std::size_t{64} << 10U;
 
   /// `scenarios`: the server's folder of exhibits.
   Shelf(std::filesystem::path scenarios, std::filesystem::path state);
@@ -86,6 +87,10 @@ class Shelf {
   /// A copy of a mesh or sound of the museum, with its record, comes among the draft's files; by another name where its own is taken.
   /// Returns the list of files, with the name as `taken`.
   [[nodiscard]] ShelfResult<std::string> take_file(const std::string& name, const std::string& path);
+  /// How the draft looks, as a WebP picture: the draft's own, or the exhibit's where the draft has none. Errors: not_found.
+  [[nodiscard]] ShelfResult<std::string> picture(const std::string& name) const;
+  /// From anywhere. It is no step, and goes with the draft when it is published. Errors: invalid_value; too_large; io_failure.
+  [[nodiscard]] ShelfResult<std::string> set_picture(const std::string& name, std::span<const std::byte> webp);
   /// What bodies can be made of a mesh file: its nodes with the volumes of those that are closed. It imports the file.
   [[nodiscard]] ShelfResult<std::string> nodes_of_file(const std::string& name, const std::string& file);
   [[nodiscard]] ShelfResult<CompiledDraft> compile(const std::string& name);
@@ -137,6 +142,8 @@ class Shelf {
   void copy_records(const std::string& to, const std::map<std::string, std::string>& names);
   /// The mesh or sound at this path in the museum; empty where it does not exist.
   [[nodiscard]] std::filesystem::path museum_file(const std::string& path) const;
+  /// Where picture() is found. Errors: not_found.
+  [[nodiscard]] Expected<std::vector<std::byte>> picture_bytes(const std::string& name) const;
   [[nodiscard]] Expected<std::string> first_text(const std::string& name, const std::string& from);
   [[nodiscard]] DraftFiles files_of(const std::string& name) const;
   /// Those in the folder `files` of `from` that the text names; see copy_used().

@@ -22,6 +22,16 @@ constexpr std::size_t kMostNodes = 200;
 constexpr std::string_view kIncoming = ".incoming";
 constexpr std::string_view kFromDraft = "draft:";
 
+/// By its head, which tells its length.
+bool is_webp(std::string_view bytes) {
+  constexpr std::size_t kHead = 12;
+  if (bytes.size() < kHead || !bytes.starts_with("RIFF") || bytes.substr(8, 4) != "WEBP") return false;
+  std::uint32_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    length |= std::uint32_t{static_cast<unsigned char>(bytes[4 + i])} << (8 * i);
+  return length == bytes.size() - 8;
+}
+
 ShelfJson json_of(const std::vector<authoring::MergeNote>& notes) {
   ShelfJson list = ShelfJson::array();
   for (const authoring::MergeNote& note : notes)
@@ -175,6 +185,27 @@ ShelfResult<std::string> Shelf::merge(const std::string& name, std::int64_t revi
   ShelfJson answer = ShelfJson::parse(*view);
   answer["merged"] = json_of(added->notes);
   return shelf_text(answer);
+}
+
+Expected<std::vector<std::byte>> Shelf::picture_bytes(const std::string& name) const {
+  auto own = read_whole(state_ / name / kPictureFile, kMostPictureBytes);
+  return own ? own : read_whole(exhibit_file(name).parent_path() / kPictureFile, kMostPictureBytes);
+}
+
+ShelfResult<std::string> Shelf::picture(const std::string& name) const {
+  if (!is_exhibit_name(name)) return bad_exhibit_name();
+  const auto bytes = picture_bytes(name);
+  if (!bytes) return shelf_fault({ErrorCode::not_found, "there is no picture of this exhibit", name, "open it once"});
+  return std::string(as_text(*bytes));
+}
+
+ShelfResult<std::string> Shelf::set_picture(const std::string& name, std::span<const std::byte> webp) {
+  if (const auto opened = open(name); !opened) return tl::unexpected(opened.error());
+  if (!is_webp(as_text(webp)))
+    return shelf_fault({ErrorCode::invalid_value, "this is not a WebP picture", name, "send one, of 64 KiB at most"});
+  if (auto written = write_whole(state_ / name / kPictureFile, webp, WholeFile::durable); !written)
+    return shelf_fault(written.error());
+  return shelf_text({{"kept", true}});
 }
 
 ShelfResult<std::string> Shelf::nodes_of_file(const std::string& name, const std::string& file) {

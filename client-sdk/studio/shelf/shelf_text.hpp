@@ -19,6 +19,9 @@ using ShelfJson = nlohmann::json;
 /// What a draft begins as, before the exhibit's name.
 inline constexpr std::string_view kFromExhibit = "exhibit:";
 
+/// Of an exhibit or its draft, in its folder.
+inline constexpr std::string_view kPictureFile = "picture.webp";
+
 [[nodiscard]] inline std::string shelf_text(const ShelfJson& json) {
   return json.dump(-1, ' ', false, ShelfJson::error_handler_t::replace);
 }

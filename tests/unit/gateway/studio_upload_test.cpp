@@ -11,6 +11,7 @@ TEST(StudioUpload, FilesAndArchivesMayBeLonger) {
   const std::string draft = "/api/studio/drafts/crane/";
   EXPECT_EQ(longest_studio_upload(draft + "files/arm.glb"), studio::DraftFiles::kMostBytes);
   EXPECT_EQ(longest_studio_upload(draft + "import"), studio::kMostArchiveBytes);
+  EXPECT_EQ(longest_studio_upload(draft + "picture"), studio::Shelf::kMostPictureBytes);
   for (const char* verb :
        {"", "import/more", "export", "files", "files/arm.glb/delete", "commands", "merge", "versions"})
     EXPECT_EQ(longest_studio_upload(draft + verb), 0U) << verb;

@@ -2,6 +2,7 @@
 #include "client-sdk/studio/shelf/shelf.hpp"
 
 #include <fstream>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using namespace std::string_literals;
 using test::ScratchFolder;
 using test::source_folder;
 using test::text_of;
@@ -57,6 +59,39 @@ CommandList command_list(std::int64_t revision, const std::string& list) {
 }
 
 constexpr const char* kHalf = R"([{"op": "set", "path": "effortScale", "value": 0.5}])";
+
+std::string listed_picture(Shelf& shelf) {
+  const json picture = right(shelf.list())["exhibits"][0]["picture"];
+  return picture.is_null() ? "" : picture.get<std::string>();
+}
+
+TEST(Shelf, APictureGoesWithTheDraftThatIsPublished) {
+  constexpr const char* kScrew = "archimedes-screw";
+  const Museum museum;
+  const fs::path shipped = museum.screw().parent_path() / "picture.webp";
+  fs::remove(shipped);
+  Shelf shelf = museum.shelf();
+  EXPECT_EQ(listed_picture(shelf), "");
+  EXPECT_EQ(shelf.picture(kScrew).error().error.code, ErrorCode::not_found);
+  const std::string webp("RIFF\x0A\0\0\0WEBPVP8 .."s), other("RIFF\x0A\0\0\0WEBPVP8 ::"s);
+  const auto set = [&](const std::string& bytes) { return shelf.set_picture(kScrew, std::as_bytes(std::span(bytes))); };
+  EXPECT_EQ(set(webp).error().error.code, ErrorCode::not_found) << "there is no draft";
+  right(shelf.begin(kScrew, std::string("exhibit:") + kScrew, kEleni));
+  for (const std::string& bad : {std::string(), std::string("<svg/>"), webp + "more", webp.substr(0, 11)})
+    EXPECT_EQ(set(bad).error().error.code, ErrorCode::invalid_value) << bad;
+  right(set(webp));
+  const std::string first = listed_picture(shelf);
+  EXPECT_NE(first, "");
+  EXPECT_EQ(*shelf.picture(kScrew), webp);
+  EXPECT_FALSE(fs::exists(shipped));
+  right(shelf.publish(kScrew, 0, kEleni));
+  EXPECT_EQ(text_of(shipped), webp) << "though the text is as it was";
+  right(set(other));
+  EXPECT_NE(listed_picture(shelf), first);
+  EXPECT_EQ(*shelf.picture(kScrew), other);
+  right(shelf.discard(kScrew, 0));
+  EXPECT_EQ(*shelf.picture(kScrew), webp) << "the exhibit's";
+}
 
 TEST(Shelf, ADraftIsLaidOutWhereItsUrlsMeanWhatTheyMean) {
   const Museum museum;

@@ -48,6 +48,8 @@ export const studio = (api: Api) => ({
   /** The draft with all that it uses, as one file. */
   exported: (name: string): Promise<Blob> => api.file(at(name, '/export')),
   imported: async (name: string, bytes: Blob): Promise<View> => viewOf(await api.json('POST', at(name, '/import'), bytes)),
+  pictureAddress: (name: string, version: string): string => `${at(name, '/picture')}?${version}`,
+  keepPicture: (name: string, webp: Blob): Promise<unknown> => api.json('POST', at(name, '/picture'), webp),
   textAddress: (name: string): string => at(name, '/text'),
   /** What a display would show of the draft at rest. */
   scene: async (name: string): Promise<KioskState> => {

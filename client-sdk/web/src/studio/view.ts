@@ -78,6 +78,8 @@ export interface Exhibit {
   name: string;
   title: Texts;
   draft: { revision: number; by: string; changed: number; problems: number } | null;
+  /** Another for each picture; "": there is none. */
+  picture: string;
 }
 export interface Library {
   exhibits: Exhibit[];
@@ -104,6 +106,7 @@ export function libraryOf(v: unknown): Library {
         title: textsOf(e.title),
         draft: draft && { revision: number(draft.revision), by: text(draft.by), changed: number(draft.changed_s),
           problems: number(draft.problems) },
+        picture: e.picture === null ? '' : text(e.picture),
       };
     }),
     templates: list(all.templates).map(fields).map((t) => ({ name: text(t.name), title: textsOf(t.title) })),

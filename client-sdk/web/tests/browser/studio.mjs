@@ -535,6 +535,9 @@ const parts = {
     await accessible('published');
     assert.equal(gateway.published, 1);
     assert.equal(gateway.asked.at(-1).path, '/api/exhibits/my-crane/load');
+    // The list shows how the exhibit looks, kept when it was drawn first.
+    await page.goto(`${origin}/studio`);
+    await page.waitForFunction(() => document.querySelector('li.card img')?.naturalWidth === 384);
   },
   async 'a recorded visit is played back'() {
     const part = (kind, bytes) => {

@@ -301,6 +301,7 @@ export class StudioStandIn extends StandIn {
     const { pathname } = new URL(request.url, 'http://stand-in');
     if (!pathname.startsWith('/api/')) return super.answer(request, response);
     if (this.away) return request.socket.destroy();
+    if (pathname.endsWith('/picture')) return this.answerPicture(request, response);
     let said = '';
     request.on('data', (bytes) => (said += bytes));
     request.on('end', () => {
@@ -309,6 +310,15 @@ export class StudioStandIn extends StandIn {
       const [status, body] = way ? ways[way]() : this.answerTo(request.method, pathname, said === '' ? {} : JSON.parse(said));
       response.writeHead(status, { 'content-type': 'application/json' });
       response.end(JSON.stringify(body));
+    });
+  }
+  answerPicture(request, response) {
+    const parts = [];
+    request.on('data', (bytes) => parts.push(bytes));
+    request.on('end', () => {
+      if (request.method === 'POST') this.picture = Buffer.concat(parts);
+      response.writeHead(200, { 'content-type': request.method === 'POST' ? 'application/json' : 'image/webp' });
+      response.end(request.method === 'POST' ? '{"kept":true}' : this.picture);
     });
   }
   answerFiles({ method, url, headers }, said) {
@@ -355,8 +365,8 @@ export class StudioStandIn extends StandIn {
     if (path === '/api/studio/schema') return [200, kSchema];
     if (path === '/api/studio/exhibits') return [200, {
       exhibits: [{ name: 'my-crane', title: { el: 'Ο γερανός', en: 'The crane' }, draft: { revision: 3, by: 'eleni',
-        changed_s: 1764340000, problems: 0 } },
-        { name: 'catapult', title: { el: 'Ο καταπέλτης', en: 'The catapult' }, draft: null }],
+        changed_s: 1764340000, problems: 0 }, picture: this.picture ? String(this.picture.length) : null },
+        { name: 'catapult', title: { el: 'Ο καταπέλτης', en: 'The catapult' }, draft: null, picture: null }],
       templates: [{ name: 'empty', title: { el: 'Κενό', en: 'Empty' } },
         { name: 'crank-and-rope', title: { el: 'Μανιβέλα και σχοινί', en: 'A crank and a rope' } }] }];
     if (path === '/api/studio/drafts') return [200, this.view()];

@@ -24,6 +24,8 @@ const kOutline = 0xff8a1f;
 const kOutline_px = 2.5;
 /** Of a joint's mark: half its length, as a share of half the picture's height. */
 const kMarkShare = 0.45;
+/** Of the list of exhibits. */
+const kSmall = { width: 384, height: 240 };
 
 export type Tool = 'translate' | 'rotate' | null;
 export interface ViewportEvents {
@@ -31,6 +33,8 @@ export interface ViewportEvents {
   picked(name: string, besides: boolean): void;
   /** A point of a thing, while points are measured. */
   measured(p: Vector): void;
+  /** The exhibit as visitors see it, with nothing drawn over it: once for each state that is shown so. */
+  pictured(webp: Blob): void;
   /** While they are dragged, and (`done`) when they are let go; the one with the arrows first. */
   moved(bodies: [name: string, pose: PoseArray][], done: boolean): void;
 }
@@ -89,6 +93,7 @@ export class Viewport {
   private ended = false;
   /** The last picture has all that there is. */
   private whole = false;
+  private pictured = false;
   private drawnAt = -Infinity;
   private clock = 0;
   private downAt: { x: number; y: number } | null = null;
@@ -125,6 +130,7 @@ export class Viewport {
 
   show(state: KioskState): void {
     this.state = state;
+    this.pictured = false;
     this.picture.set(state);
     this.letGo();
   }
@@ -304,7 +310,20 @@ export class Viewport {
     this.ruler.face(camera);
     this.picture.draw(this.frame(), this.clock, false, null);
     this.whole = world.complete;
+    const plain = this.selected === '' && !this.own && !this.marked && !this.measures && this.hidden.size === 0;
+    if (this.whole && plain && !this.pictured) this.keepPicture();
   };
+  /** Of what has just been drawn: the canvas has it until this task ends. */
+  private keepPicture(): void {
+    this.pictured = true;
+    const small = document.createElement('canvas');
+    [small.width, small.height] = [kSmall.width, kSmall.height];
+    const { width, height } = this.canvas;
+    const scale = Math.min(width / small.width, height / small.height);
+    const [w, h] = [small.width * scale, small.height * scale];
+    small.getContext('2d')!.drawImage(this.canvas, (width - w) / 2, (height - h) / 2, w, h, 0, 0, small.width, small.height);
+    small.toBlob((webp) => webp?.type === 'image/webp' && this.events.pictured(webp), 'image/webp', 0.8);
+  }
 
   /** Around what is selected: a body, or a joint's mark. */
   private boxAround(): Box3 | null {
