@@ -41,6 +41,26 @@ void start_preview(GatewaySite& site, const std::string& draft, const std::strin
       });
 }
 
+void edit_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
+  const auto revision = studio::parse_revision(body);
+  if (!revision) return done(fault_answer({revision.error()}));
+  const auto step = site.previews().editable(draft);
+  if (!step) return done(refusal(step.error()));
+  const auto laid = std::make_shared<std::optional<studio::PreviewDraft>>();
+  site.studio().give(
+      [draft, laid, revision = *revision, step = *step](studio::Shelf& shelf) {
+        auto draft_laid = shelf.lay_out(draft, revision, step);
+        if (!draft_laid) return fault_answer(draft_laid.error());
+        *laid = std::move(*draft_laid);
+        return fresh_answer("{}");
+      },
+      [&site, draft, laid, done](HttpAnswer answer) {
+        if (!*laid) return done(std::move(answer));
+        const auto edited = site.previews().edit(draft, std::move(**laid));
+        done(edited ? looked_at(site, draft) : refusal(edited.error()));
+      });
+}
+
 void pace_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
   const auto wanted = parse_pace(body);
   if (!wanted) return done(refusal(wanted.error()));
@@ -85,7 +105,7 @@ bool is_preview_verb(const std::string& verb) {
 }
 
 bool is_passing(const std::string& verb) {
-  return verb == "preview/pace" || verb == "preview/visit";
+  return verb == "preview/pace" || verb == "preview/visit" || verb == "preview/edit";
 }
 
 bool answer_preview_get(GatewaySite& site, const std::string& draft, const std::string& verb, const Site::Done& done) {
@@ -97,6 +117,7 @@ void answer_preview_post(GatewaySite& site, const std::string& draft, const std:
                          const Site::Done& done) {
   if (verb == "preview") return start_preview(site, draft, body, done);
   if (verb == "preview/pace") return pace_preview(site, draft, body, done);
+  if (verb == "preview/edit") return edit_preview(site, draft, body, done);
   if (verb == "preview/visit") return play_visit(site, draft, body, done);
   site.previews().stop(draft);
   done(looked_at(site, draft));

@@ -186,13 +186,14 @@ Expected<Lobby::Entry*> Lobby::open_for(const Session& session) {
 }
 
 Expected<Lobby::Entry*> Lobby::open(std::vector<std::string> kiosks,
-                                    std::shared_ptr<const state::WorldDescription> description) {
+                                    std::shared_ptr<const state::WorldDescription> description,
+                                    std::vector<std::byte> carried) {
   auto entry = std::make_unique<Entry>();
   entry->name = fmt::format("world-{}", next_number_);
   entry->description = std::move(description);
   entry->kiosks = std::move(kiosks);
   record::JournalHeader header;
-  auto world = make_world(*entry, header);
+  auto world = make_world(*entry, std::move(carried), header);
   if (!world) return tl::unexpected(world.error());
   auto port = transport_.open_world(entry->name, entry->description);
   if (!port) return tl::unexpected(port.error());
@@ -248,7 +249,12 @@ std::shared_ptr<const state::WorldDescription> Lobby::next_of(Entry& entry) cons
 }
 
 Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDescription> description) {
-  auto opened = open(entry.kiosks, std::move(description));
+  std::vector<std::byte> carried;
+  if (entry.carries_on) {
+    wait_until_left(entry);
+    state::write_snapshot(entry.running.world->state, carried);
+  }
+  auto opened = open(entry.kiosks, std::move(description), std::move(carried));
   if (!opened) return tl::unexpected(opened.error());
   Entry& next = **opened;
   const std::string went_on_to = next.description->id;
@@ -266,15 +272,18 @@ Expected<void> Lobby::go_on(Entry& entry, std::shared_ptr<const state::WorldDesc
   return {};
 }
 
-/// A world that continues where the kiosk was before a restart, or else the scenario's beginning.
-Expected<std::unique_ptr<world::World>> Lobby::make_world(Entry& entry, record::JournalHeader& header) {
+/// A world that goes on from what is carried, or continues where the kiosk was before a restart, or else the scenario's beginning.
+Expected<std::unique_ptr<world::World>> Lobby::make_world(Entry& entry, std::vector<std::byte> carried,
+                                                          record::JournalHeader& header) {
   const std::string& kiosk = entry.kiosks.front();
-  if (const record::SnapshotFile* snapshot = snapshot_of(kiosk, *entry.description)) {
-    auto resumed = world::World::resume(entry.description, scenarios_.world_config(), snapshot->state);
+  if (carried.empty())
+    if (const record::SnapshotFile* snapshot = snapshot_of(kiosk, *entry.description)) carried = snapshot->state;
+  if (!carried.empty()) {
+    auto resumed = world::World::resume(entry.description, scenarios_.world_config(), carried);
     if (resumed) {
       log::info(fmt::format("resumed {} where it was: step {}, tick {}", kiosk,
                             step_name(*entry.description, (*resumed)->state), (*resumed)->state.tick));
-      header.snapshot = snapshot->state;
+      header.snapshot = std::move(carried);
       header.first_tick = (*resumed)->state.tick + 1;
       return resumed;
     }
@@ -404,6 +413,12 @@ void Lobby::hurry(const std::string& exhibit) {
     if (entry->description->id == exhibit && !is_current(*entry)) entry->farewell.hurry();
 }
 
+void Lobby::carry_on(const std::string& exhibit) {
+  for (auto& [name, entry] : worlds_)
+    if (entry->description->id == exhibit && !is_current(*entry)) entry->carries_on = true;
+  hurry(exhibit);
+}
+
 void Lobby::leave_former_exhibits(TimePoint now) {
   std::vector<Entry*> leaving;  // leaving closes worlds, and may open others
   for (auto& [name, entry] : worlds_) {
@@ -415,13 +430,16 @@ void Lobby::leave_former_exhibits(TimePoint now) {
     if (step == FarewellStep::leave) leaving.push_back(entry.get());
   }
   for (Entry* entry : leaving)
-    entry->farewell.hurried() ? send_away(*entry, now) : leave_former(*entry);
+    entry->farewell.hurried() && !entry->carries_on ? send_away(*entry, now) : leave_former(*entry, now);
 }
 
 /// The kiosks go on to the exhibit as it is now, or home where it was retired.
-void Lobby::leave_former(Entry& entry) {
+void Lobby::leave_former(Entry& entry, TimePoint now) {
   auto next = scenarios_.find(entry.description->id);
-  if (auto gone = go_on(entry, next != nullptr ? std::move(next) : scenarios_.first()); !gone) log::error(gone.error());
+  const auto gone = go_on(entry, next != nullptr ? std::move(next) : scenarios_.first());
+  if (gone) return;
+  log::error(gone.error());
+  if (entry.carries_on) send_away(entry, now);  // its loop has given it back already
 }
 
 void Lobby::send_away(Entry& entry, TimePoint now) {
@@ -452,7 +470,8 @@ void Lobby::close_all() {
   worlds_.clear();
 }
 
-void Lobby::wait_until_left(Entry& entry) {
+void Lobby::wait_until_left(Entry& entry) const {
+  if (entry.loop == nullptr) return;
   entry.running.leave.store(true, std::memory_order_release);
   SystemClock clock;
   // The loop gives the world back at the end of its next tick. A loop that has stopped does not use it any more.
@@ -460,6 +479,7 @@ void Lobby::wait_until_left(Entry& entry) {
     clock.sleep_until(clock.now() + kTickPeriod);
   }
   entry.loop->forget_one();
+  entry.loop = nullptr;
 }
 
 void Lobby::close(Entry& entry, record::WorldRecorder::Snapshot snapshot, const std::string& went_on_to) {

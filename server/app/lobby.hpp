@@ -38,6 +38,9 @@ class Lobby {
   /// Lets also the visits end that are in progress on a former content of this exhibit. Those whose visits may finish need no call:
   /// tidy() finds the worlds whose exhibit the store does not have any more.
   void hurry(const std::string& exhibit);
+  /// Worlds that run a former content of this exhibit go on with it as the store has it now, from where they are: once their hands are
+  /// without force. See world::obstacle_between(); where their state does not fit all the same, they begin anew.
+  void carry_on(const std::string& exhibit);
   /// How many worlds run this exhibit as the store has it, and how many a former content of it.
   struct WorldCount {
     std::uint32_t current = 0;
@@ -56,8 +59,9 @@ class Lobby {
     std::shared_ptr<const state::WorldDescription> description;
     RunningWorld running;
     std::unique_ptr<WorldVisits> visits;
-    Farewell farewell;  ///< used once the store has its exhibit no more, or another content of it
-    WorldLoop* loop = nullptr;
+    bool carries_on = false;    ///< its state goes to the world that follows
+    Farewell farewell;          ///< used once the store has its exhibit no more, or another content of it
+    WorldLoop* loop = nullptr;  ///< null: it has given the world back
     std::vector<std::string> kiosks;
     std::optional<TimePoint> idle_since;
   };
@@ -76,7 +80,7 @@ class Lobby {
   [[nodiscard]] std::string why_to_wait(const Waiting& waiting, TimePoint now);
   [[nodiscard]] bool is_current(const Entry& entry) const;
   void leave_former_exhibits(TimePoint now);
-  void leave_former(Entry& entry);
+  void leave_former(Entry& entry, TimePoint now);
   /// Closes the entry, and tells its kiosks why for a while before they get another world.
   void send_away(Entry& entry, TimePoint now);
   void give_world(const transport::Session& session);
@@ -89,12 +93,15 @@ class Lobby {
   [[nodiscard]] Expected<Entry*> open_for(const transport::Session& session);
   /// The scenario that an entry's visitors go on to now; null: none.
   [[nodiscard]] std::shared_ptr<const state::WorldDescription> next_of(Entry& entry) const;
-  /// Moves the entry's kiosks and hands to a new world, and closes the entry. Errors: as open().
+  /// Moves the entry's kiosks and hands to a new world, with its state where that carries on, and closes the entry. Errors: as open().
   [[nodiscard]] Expected<void> go_on(Entry& entry, std::shared_ptr<const state::WorldDescription> description);
   /// Makes a world and gives it to a loop.
+  /// `carried`: a snapshot that it goes on from; empty: see make_world().
   [[nodiscard]] Expected<Entry*> open(std::vector<std::string> kiosks,
-                                      std::shared_ptr<const state::WorldDescription> description);
-  [[nodiscard]] Expected<std::unique_ptr<world::World>> make_world(Entry& entry, record::JournalHeader& header);
+                                      std::shared_ptr<const state::WorldDescription> description,
+                                      std::vector<std::byte> carried = {});
+  [[nodiscard]] Expected<std::unique_ptr<world::World>> make_world(Entry& entry, std::vector<std::byte> carried,
+                                                                   record::JournalHeader& header);
   /// The newest snapshot that the kiosk can continue from; null: none.
   [[nodiscard]] const record::SnapshotFile* snapshot_of(const std::string& kiosk,
                                                         const state::WorldDescription& description) const;
@@ -105,7 +112,7 @@ class Lobby {
   void start_visits(Entry& entry, bool resumed);
   /// `went_on_to`: the scenario that its visitors go on to; empty: none.
   void close(Entry& entry, record::WorldRecorder::Snapshot snapshot, const std::string& went_on_to = {});
-  void wait_until_left(Entry& entry);
+  void wait_until_left(Entry& entry) const;
 
   const Settings& settings_;
   const ScenarioStore& scenarios_;

@@ -31,7 +31,7 @@ Expected<PaceOrder> parse_pace_order(std::string_view line) {
     if (const auto ticks = number_within<std::uint32_t>(line.substr(kStep.size()), 1, kMostSteps))
       return PaceOrder{0, *ticks};
   return fail(ErrorCode::invalid_value, "'" + std::string(line) + "' is not an order", "standard input",
-              fmt::format("write 'pace X' with X from 0 to 1, or 'step N' with N from 1 to {}", kMostSteps));
+              fmt::format("write 'pace X' with X from 0 to 1, 'step N' with N from 1 to {}, or 'edit N'", kMostSteps));
 }
 
 std::vector<std::string> OrderLines::take() {

@@ -1,6 +1,8 @@
 #include "server/app/server.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,6 +11,7 @@
 
 #include "server/app/exhibit_changes.hpp"
 #include "server/app/exhibit_desk.hpp"
+#include "server/app/live_edit.hpp"
 #include "server/app/lobby.hpp"
 #include "server/app/overload.hpp"
 #include "server/app/pace_orders.hpp"
@@ -86,6 +89,7 @@ class Server::Impl {
   std::vector<std::unique_ptr<WorldLoop>> loops_;
   std::unique_ptr<Lobby> lobby_;
   std::unique_ptr<ExhibitDesk> desk_;
+  std::optional<LiveEdit> live_edit_;
   OverloadWatch overload_;
   OrderLines orders_{STDIN_FILENO};
   double pace_ = 1;  ///< the last that was asked for
@@ -118,6 +122,7 @@ Expected<void> Server::Impl::start() {
         "doctor'");
   }
   lobby_ = std::make_unique<Lobby>(settings_, *scenarios_, *transport_, recorder_.get(), visit_writer_.get(), loops_);
+  live_edit_.emplace(settings_, *scenarios_, *lobby_, reader_);
   desk_ = std::make_unique<ExhibitDesk>(settings_, std::move(of_settings), *scenarios_, *transport_, *lobby_, reader_);
   return {};
 }
@@ -206,6 +211,10 @@ void Server::Impl::look(TimePoint now) {
   lobby_->take_answers();
   lobby_->follow_signs();
   desk_->look(now);
+  if (const std::string done = live_edit_->look(); !done.empty()) {
+    fmt::print("{}\n", done);
+    std::fflush(stdout);
+  }
   lobby_->tidy(now);
 }
 
@@ -217,6 +226,7 @@ bool Server::Impl::follow_orders() {
 }
 
 void Server::Impl::follow(const std::string& line) {
+  if (const auto edit = parse_edit_order(line)) return live_edit_->order(*edit);
   const auto order = parse_pace_order(line);
   if (!order) return log::warning(order.error().to_string());
   if (order->ticks > 0 && pace_ != 0)

@@ -222,9 +222,10 @@ Expected<void> read_flags(int argc, const char* const* argv, Settings& s, std::o
                  "factor on the stiffness of all that is touched; 0 turns touch off");
   app.add_flag("--paper-force", paper,
                "average the force over the whole hand, as the published system did, for comparison");
-  app.add_flag(
-      "--paced", s.paced,
-      "read orders from standard input, 'pace X' (0 to 1 of real time) and 'step N' (ticks), and stop when it ends");
+  app.add_flag("--paced", s.paced,
+               "read orders from standard input, 'pace X' (0 to 1 of real time), 'step N' (ticks) and 'edit N' (its "
+               "file has been "
+               "edited), and stop when it ends");
   app.add_flag("--verbose", s.verbose, "log details");
   try {
     app.parse(argc, argv);

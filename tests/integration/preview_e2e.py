@@ -207,6 +207,48 @@ class Preview(WithGateway):
         self.assertTrue(visitor.take("DRUM", [0, 0.25, 0.3]), browser.texts.get("pointer"))
         visitor.xdo("mouseup", 1)
 
+    def edited(self, page, revision, *commands):
+        """Changes the draft, and asks for it where it runs; the preview, once its server has answered."""
+        self.posted(page, f"{DRAFT}/commands", {"revision": revision, "commands": list(commands)})
+        self.posted(page, f"{PREVIEW}/edit", {"revision": revision}, 409)
+        self.posted(page, f"{PREVIEW}/edit", {"revision": revision + 1})
+        answered = lambda: revision + 1 in (self.preview(page)["revision"], self.preview(page).get("kept", {}).get("revision"))
+        wait_until(answered, 60, "the server has answered")
+        return self.preview(page)
+
+    def test_what_is_edited_goes_into_what_runs_or_it_is_told_what_keeps_it(self):
+        process, page = self.gateway()
+        self.posted(page, "/api/studio/drafts", {"name": NAME, "from": "template:crank-and-rope"})
+        self.posted(page, f"{PREVIEW}/edit", {"revision": 0}, 409)
+        browser = self.browser(page, self.tried(page, 0))
+        caption = lambda: browser.texts["world"]["caption"]["en"]
+        said = lambda words: {"op": "set", "path": "activities/lift/steps/wind/text/caption.en", "value": words}
+        wait_until(lambda: browser.frame.tick > 500, 20, "time goes on")
+        self.assertEqual(self.edited(page, 0, said("Wind it up."))["revision"], 1)
+        wait_until(lambda: caption() == "Wind it up.", 20, "visitors read the new words")
+        self.assertGreater(browser.frame.tick, 500, "it goes on from where it was")
+
+        # While time stands still, too.
+        self.posted(page, f"{PREVIEW}/pace", {"pace": 0})
+        tick = still_tick(browser)
+        heavier = {"op": "field", "node": "DRUM", "field": "mass", "value": "20"}
+        self.assertEqual(self.edited(page, 1, said("Turn."), heavier)["revision"], 2)
+        wait_until(lambda: caption() == "Turn.", 20, "visitors read the new words")
+        self.assertEqual(still_tick(browser), tick)
+        self.posted(page, f"{PREVIEW}/pace", {"pace": 1})
+        wait_until(lambda: browser.frame.tick > tick, 20, "time goes on")
+
+        # What needs a start anew.
+        elsewhere = {"op": "field", "node": "LOAD", "field": "position", "value": "0 0.5 0"}
+        kept = self.edited(page, 2, elsewhere)
+        self.assertEqual((kept["revision"], kept["kept"]), (2, {"revision": 3, "by": "body LOAD"}))
+        kept = self.edited(page, 3, {"op": "set", "path": "activities/lift/steps/wind/disable", "value": "HOLD"})
+        self.assertEqual((kept["revision"], kept["kept"]), (2, {"revision": 4, "by": "steps wind"}))
+        self.assertEqual(browser.frame.tick > tick, browser.open, "nobody has noticed")
+        self.assertNotIn("kept", self.tried(page, 4))
+        self.assertFalse([line for line in self.preview(page)["said"] if line.startswith("edit ")])
+        self.assertEqual(process.stop(), 0, process.text())
+
     @marked("address")
     def test_what_cannot_be_tried_is_told_and_nothing_outlives_its_gateway(self):
         process, page = self.gateway()

@@ -32,6 +32,7 @@ class PlayedVisit {
                                                    std::function<void()> ended);
   /// Asks it to go, and returns what has to be kept until it has gone; null where it has gone already.
   [[nodiscard]] std::unique_ptr<PreviewProcess> end();
+  [[nodiscard]] bool plays() const { return process_ != nullptr; }
   /// It has gone: keeps what it has reported.
   void note_end();
   /// COMMANDS.md: `visit` of a preview.

@@ -260,6 +260,42 @@ Expected<void> PreviewDesk::play(const std::string& draft, const std::string& vi
   return {};
 }
 
+Expected<std::string> PreviewDesk::editable(const std::string& draft) {
+  auto preview = running(draft);
+  if (!preview) return tl::unexpected(preview.error());
+  if ((*preview)->played && (*preview)->played->plays())
+    return fail(ErrorCode::conflict, "a visitor plays in what runs", {}, "wait until the visit ends, or end it");
+  return (*preview)->draft.step;
+}
+
+Expected<void> PreviewDesk::edit(const std::string& draft, studio::PreviewDraft laid) {
+  auto preview = running(draft);
+  if (!preview) return tl::unexpected(preview.error());
+  if (laid.step != (*preview)->draft.step)
+    return fail(ErrorCode::conflict, "this draft was started anew meanwhile", {}, "it runs as it is now");
+  if (auto given = order(**preview, fmt::format("edit {}", laid.revision)); !given) return given;
+  (*preview)->edited = std::move(laid);
+  return {};
+}
+
+/// Takes the answers to edits out of what the server has said.
+void PreviewDesk::hear_edits(Preview& preview, std::vector<std::string>& said) {
+  constexpr std::string_view kEdit = "edit ";
+  for (const std::string& line : said) {
+    if (!preview.edited || !line.starts_with(fmt::format("{}{} ", kEdit, preview.edited->revision))) continue;
+    const std::string answer = line.substr(line.find(' ', kEdit.size()) + 1);
+    if (answer == "taken") {
+      preview.draft = std::move(*preview.edited);
+      preview.kept_from = -1;
+    } else {
+      preview.kept_from = preview.edited->revision;
+      preview.kept_by = answer;
+    }
+    preview.edited.reset();
+  }
+  std::erase_if(said, [](const std::string& line) { return line.starts_with(kEdit); });
+}
+
 void PreviewDesk::end_visit(Preview& preview) {
   if (!preview.played) return;
   if (auto process = preview.played->end()) ending_.push_back({preview.domain, std::move(process)});
@@ -283,15 +319,17 @@ std::string PreviewDesk::look(const std::string& draft, TimePoint now) {
   if (found == previews_.end()) return PreviewJson{{"state", preparing_.contains(draft) ? "starting" : "none"}}.dump();
   Preview& preview = found->second;
   preview.looked = now;
+  std::vector<std::string> said = preview.process ? preview.process->said() : preview.said;
+  hear_edits(preview, said);
   PreviewJson out{{"revision", preview.draft.revision}, {"pace", preview.pace}};
+  if (preview.kept_from >= 0) out["kept"] = {{"revision", preview.kept_from}, {"by", preview.kept_by}};
   if (!preview.draft.step.empty()) out["begins"] = preview.draft.step;
   if (!preview.process) {
     out["state"] = "failed";
-    out["said"] = preview.said;
   } else {
     out["state"] = shows_world(preview.hub.get()) ? "running" : "starting";
-    out["said"] = preview.process->said();
   }
+  out["said"] = std::move(said);
   if (preview.played) out["visit"] = preview.played->to_json();
   if (preview.hub) {
     backstage_.tokens.use(preview.token, now);

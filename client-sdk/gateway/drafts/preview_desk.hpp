@@ -72,6 +72,11 @@ class PreviewDesk {
   /// A scripted visitor comes, in the place of one who is there, and time runs as in the museum. Without a name he goes. Errors: conflict
   /// (nothing runs), unknown_name (a visit that what runs does not have), failed_process.
   [[nodiscard]] Expected<void> play(const std::string& draft, const std::string& visit);
+  /// The draft as it is now has been laid out in the place of the one that runs, beginning at the same step: its server goes on with it
+  /// from where it is, or says what keeps it from that. Errors: conflict (nothing runs, or a visitor plays), failed_process.
+  [[nodiscard]] Expected<void> edit(const std::string& draft, studio::PreviewDraft laid);
+  /// The step that the draft began at, where it runs and can be edited. Errors: those of edit().
+  [[nodiscard]] Expected<std::string> editable(const std::string& draft);
   void stop(const std::string& draft);
   /// As JSON, for who looks at it. It ends when nobody has for a while.
   [[nodiscard]] std::string look(const std::string& draft, TimePoint now);
@@ -91,7 +96,10 @@ class PreviewDesk {
     std::unique_ptr<PreviewProcess> process;       ///< null: it has failed
     std::shared_ptr<const std::monostate> wanted;  ///< as long as its kiosk is to be opened
     std::shared_ptr<KioskHub> hub;
-    std::vector<std::string> said;  ///< of one that has failed
+    std::vector<std::string> said;               ///< of one that has failed
+    std::optional<studio::PreviewDraft> edited;  ///< its server has not answered yet
+    std::int64_t kept_from = -1;                 ///< the newest revision that it did not go on with
+    std::string kept_by;                         ///< and why: "body LOAD"
     MotionWatch motion;
     std::uint64_t visits = 0;           ///< that were played
     std::optional<PlayedVisit> played;  ///< the last one
@@ -110,6 +118,7 @@ class PreviewDesk {
   void open(const Preview& preview);
   void opened(std::uint64_t number, std::shared_ptr<client::DisplaySeats> seats);
   void ended(std::uint64_t number);
+  static void hear_edits(Preview& preview, std::vector<std::string>& said);
   void end_visit(Preview& preview);
   void visit_ended(std::uint64_t number, std::uint64_t visit);
   void close(const std::string& draft, Preview& preview, const std::string& why);

@@ -143,6 +143,39 @@ it('looks once a second while it runs, and lets go of it when nobody sees the pa
   expect(asked.length).toBeGreaterThan(before + 1);
 });
 
+it('what is edited meanwhile goes into the world that runs, once for each state of the draft', async () => {
+  const { desk, draft } = deskOf();
+  const edits = (): unknown[] => asked.filter(([, path]) => path === '/preview/edit').map(([, , body]) => body);
+  const looks = async (said: object): Promise<void> => {
+    answer = () => ({ state: 'running', pace: 1, ...said });
+    await vi.advanceTimersByTimeAsync(2_000);
+  };
+  await draft.refresh();
+  desk.begin();
+  await looks({ revision: 5 });
+  await looks({ revision: 4, visit: { name: 'shown', state: 'playing' } });
+  await looks({ revision: 4, kept: { revision: 5, by: 'body LOAD' } });
+  expect(desk.now?.kept).toEqual({ revision: 5, by: 'body', name: 'LOAD' });
+  expect(edits()).toEqual([]);
+  await looks({ revision: 4, kept: { revision: 4, by: 'start' } });
+  expect(edits()).toEqual([{ revision: 5 }]);
+  await looks({ revision: 4 });
+  expect(edits().length).toBe(1);
+});
+
+it('another author who was quicker is no trouble', async () => {
+  const { desk, draft } = deskOf();
+  await draft.refresh();
+  answer = (path) => {
+    if (path.endsWith('/edit')) throw new ApiError(409, 'the draft was changed meanwhile', '');
+    return { state: 'running', revision: 4 };
+  };
+  desk.begin();
+  await vi.advanceTimersByTimeAsync(2_000);
+  expect(asked.some(([, path]) => path === '/preview/edit')).toBe(true);
+  expect(desk.trouble).toBe('');
+});
+
 it('orders are done one after another, and a late answer to an older look changes nothing', async () => {
   const { desk } = deskOf();
   let late = (_: object): void => undefined;

@@ -35,7 +35,7 @@ TEST(PaceOrders, OtherLinesAreErrorsThatNameThem) {
   for (const char* line : {"", "pace", "pace ", "pace 1.1", "pace -0.1", "pace nan", "pace 1 ", "pace  1", "Pace 1",
                            "step 0", "step 10001", "step -1", "step 1.5", "step", "stop"})
     EXPECT_THAT(parse_pace_order(line).error(),
-                test::is_error(ErrorCode::invalid_value, 0, {"'" + std::string(line) + "'", "step N"}))
+                test::is_error(ErrorCode::invalid_value, 0, {"'" + std::string(line) + "'", "step N", "edit N"}))
         << line;
 }
 

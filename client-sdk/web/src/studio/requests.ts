@@ -24,6 +24,9 @@ export const studio = (api: Api) => ({
     previewOf(await api.json('POST', at(name, '/preview'), { revision, ...(step && { step }) })),
   pacePreview: async (name: string, pacing: Pacing): Promise<Preview> =>
     previewOf(await api.json('POST', at(name, '/preview/pace'), pacing)),
+  /** The world that runs goes on as the draft is now, where it can. */
+  editPreview: async (name: string, revision: number): Promise<Preview> =>
+    previewOf(await api.json('POST', at(name, '/preview/edit'), { revision })),
   playVisit: async (name: string, visit: string): Promise<Preview> =>
     previewOf(await api.json('POST', at(name, '/preview/visit'), { visit })),
   stopPreview: async (name: string): Promise<Preview> => previewOf(await api.json('POST', at(name, '/preview/stop'), {})),

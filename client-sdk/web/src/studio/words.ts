@@ -303,6 +303,15 @@ const kEnglish = {
     begunAt: (step: string) => `It began at ${step}. Agents and bodies are as the steps before it say. What a visitor would have ` +
       'done until then is not done: bodies that no step puts somewhere, and water, are as at the start.',
     changed: 'The draft has changed since this began.',
+    changing: 'What has changed is on its way into what runs.',
+    kept: (why: string) => `${why}. It is seen after a new start.`,
+    keptBy: {
+      steps: (step: string) => (step === '' ? 'Steps have come, gone or moved' : `The step ${step} switches other things`),
+      bodies: () => 'Bodies have come or gone',
+      body: (body: string) => `${body} begins elsewhere or otherwise`,
+      start: () => 'A joint, an agent or a machine begins otherwise',
+      failed: () => 'The change did not get into what runs',
+    },
     waits: 'The draft has errors: mend them first.',
     starting: 'It is starting …',
     stop: 'Stop it',

@@ -467,9 +467,16 @@ const parts = {
     const steps = await page.locator('figure:has-text("height") tbody th').allTextContents();
     assert.deepEqual(steps, ['lift', 'guide']);
     await accessible('preview');
-    // A field beside it, then a start anew with what was changed.
+    // What a field beside it is changed to goes into what runs; a body that begins elsewhere needs a start anew.
     await page.click('.still li:has-text("FRAME") button:text-is("Go to the field")');
     await type('FRAME/mechane:haptic/stiffness', '700');
+    for (let left = 50; left > 0 && gateway.trial.revision !== gateway.revision; --left) await page.waitForTimeout(100);
+    assert.equal(gateway.trial.revision, gateway.revision);
+    await page.waitForSelector('.notice:has-text("on its way")', { state: 'detached' });
+    await page.waitForSelector('.notice:has-text("It began at")');
+    gateway.keptBy = 'body FRAME';
+    await type('FRAME/mechane:haptic/stiffness', '750');
+    await page.waitForSelector('.notice:has-text("FRAME begins elsewhere or otherwise. It is seen after a new start.")');
     await page.selectOption('.controls .from select', '');
     await page.focus('.notice button:text-is("Start anew")');
     await page.keyboard.press('Control+Enter');

@@ -129,7 +129,8 @@ class Trial {
       remedy: { el: 'Κάντε το κινητό.', en: 'Make it movable.' }, path: 'FRAME/mechane:haptic/stiffness' };
     const off = { kind: 'off', text: { el: 'Η δράση GUIDE είναι κλειστή σε αυτό το βήμα.', en: 'GUIDE is off in this step.' },
       path: 'activities/use/steps/lift/trigger:1/value' };
-    return { state: 'running', revision: this.revision, begins: this.begins, pace: this.pace, kiosk: 'studio-my-crane', activity: 'use', step: this.step,
+    return { state: 'running', revision: this.revision, kept: this.kept, begins: this.begins, pace: this.pace,
+      kiosk: 'studio-my-crane', activity: 'use', step: this.step,
       visit: this.visit, address: '/kiosk/studio-my-crane?token=t', socket: '/ws/kiosk/studio-my-crane?token=t', time_s: this.tick / 1000,
       still: [{ def: 'FRAME', reasons: [fixed] }, ...(this.step === 'lift' ? [{ def: 'LOAD', reasons: [off] }] : [])] };
   }
@@ -179,6 +180,9 @@ export class StudioStandIn extends StandIn {
       this.begin(this.trial.step);
     } else if (verb === '' && 'revision' in body) {
       return [409, { error: 'the draft was changed meanwhile', remedy: 'look at it, and start it again', revision: this.revision }];
+    } else if (verb === '/edit') {
+      if (this.keptBy) this.trial.kept = { revision: body.revision, by: this.keptBy };
+      else this.trial.revision = body.revision;
     } else if (verb === '/pace') {
       this.trial.go(body);
     } else if (verb === '/visit') {

@@ -25,10 +25,20 @@ export interface Played {
   /** Why it is not done; or, where it has failed, the last lines that it said. */
   reason: string;
 }
+export interface Kept {
+  /** -1: nothing does. */
+  revision: number;
+  by: KeptBy;
+  /** Of the step or the body; "": several. */
+  name: string;
+}
+export type KeptBy = (typeof kKeptBy)[number];
 export interface Preview {
   state: PreviewState;
-  /** Of the draft, as it was when this began. */
+  /** Of the draft, as it runs. */
   revision: number;
+  /** What keeps the world from going on as a newer draft. */
+  kept: Kept;
   /** The step that it began at, "use/lift"; "": where the exhibit begins. */
   begins: string;
   /** World time by real time: 0 is paused, 1 is real time. */
@@ -46,6 +56,7 @@ export interface Preview {
 /** What is asked of one that runs: how fast, or, while it is paused, so many ticks of 1 ms. */
 export type Pacing = { pace: number } | { ticks: number };
 
+const kKeptBy = ['steps', 'bodies', 'body', 'start', 'failed'] as const;
 const kStates: readonly string[] = ['starting', 'running', 'failed'];
 const stillOf = (v: unknown): Still => {
   const s = fields(v);
@@ -65,11 +76,18 @@ function playedOf(v: unknown): Played {
   };
 }
 
+function keptOf(v: unknown): Kept {
+  const k = fields(v);
+  const [kind = '', ...name] = text(k.by).split(' ');
+  return { revision: typeof k.revision === 'number' ? k.revision : -1, by: kKeptBy.find((by) => by === kind) ?? 'failed', name: name.join(' ') };
+}
+
 export function previewOf(v: unknown): Preview {
   const p = fields(v);
   return {
     state: kStates.includes(text(p.state)) ? (p.state as PreviewState) : 'none',
     revision: number(p.revision),
+    kept: keptOf(p.kept),
     begins: text(p.begins),
     pace: typeof p.pace === 'number' ? number(p.pace) : 1,
     address: text(p.address),

@@ -15,6 +15,14 @@ export const canStart = (ws: Workspace): boolean => ws.state.waiting === 0 && !h
 /** The draft is another than the one that runs. */
 export const isStale = (ws: Workspace): boolean => ws.preview.isOn && ws.preview.now!.revision !== ws.view.revision;
 
+/** What becomes of the change, in words. */
+export function staleText(ws: Workspace): string {
+  const { words: { preview: words }, preview: { now } } = ws;
+  if (hasErrors(ws)) return words.changed;
+  const kept = now!.kept.revision === ws.view.revision;
+  return kept ? words.kept(words.keptBy[now!.kept.by](now!.kept.name)) : words.changing;
+}
+
 /** The steps that it can begin at, "use/lift". */
 export const startsOf = (ws: Workspace): string[] =>
   activitiesOf(ws.view).flatMap((activity) => stepsIn(ws.view, activity).map((step) => `${activity}/${step.name}`));

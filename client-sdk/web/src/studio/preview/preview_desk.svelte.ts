@@ -57,6 +57,8 @@ export class PreviewDesk {
   private stale = false;
   private drawnAt = 0;
   private asked = 0;
+  /** The draft's revision that was last to go into the world that runs. */
+  private carried = 0;
   private orders = 0;
   private line = Promise.resolve();
   private next: ReturnType<typeof setTimeout> | undefined;
@@ -182,7 +184,21 @@ export class PreviewDesk {
     const visit = this.playNext;
     if (said.state !== 'starting') this.playNext = '';
     if (said.state === 'running' && visit !== '') void this.play(visit);
+    this.carryOn();
     if (said.state !== 'none' && said.revision > (this.draft.state.view?.revision ?? 0)) void this.draft.refresh();
+  }
+  /** What was edited meanwhile goes into the world that runs; once for each state of the draft. */
+  private carryOn(): void {
+    const { view, waiting } = this.draft.state;
+    const { revision, kept, visit } = this.now!;
+    if (!this.runs || !view || waiting > 0 || view.revision <= Math.max(revision, kept.revision, this.carried)) return;
+    if (visit.state === 'playing' || view.problems.some((p) => p.severity === 'error')) return;
+    this.carried = view.revision;
+    void this.order(() => this.requests.editPreview(this.name, view.revision).catch((error: unknown) => {
+      // Somebody was quicker: what runs now is seen by a look.
+      if (error instanceof ApiError && error.status === 409) return this.requests.preview(this.name);
+      throw error;
+    }));
   }
   private fail(error: unknown): void {
     this.trouble = sentence(error);
