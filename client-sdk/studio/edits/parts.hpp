@@ -37,12 +37,11 @@ struct Part {
 /// A part as XML, with this DEF and place in W.
 [[nodiscard]] std::string text_of(const Part& part, std::string_view def, std::string_view position);
 
-/// A whole exhibit with a visit: $ID stands for its id.
+/// A whole exhibit with a visit, from templates/NAME.x3d: $ID stands for its id.
 struct Template {
   std::string_view name;
   std::string_view title_el;
   std::string_view title_en;
-  std::string_view text;
 };
 
 [[nodiscard]] std::span<const Template> templates();
