@@ -142,7 +142,8 @@ export const kEnglishHelp: HelpWords = {
         'Below it stands what does not move and why, with a way to the field that decides it.',
         'Visits, at the right, keeps what you do in the picture as a scripted visit. A visitor does it again whenever you press Let a ' +
           'visitor do it, and you are told which move did not succeed.',
-        'After a change press Start anew: what runs is the draft as it was when it started.',
+        'What you change goes into what runs, after hands have let go. Where a thing begins elsewhere, or steps have changed, you are told ' +
+          'to press Start anew.',
       ],
       keys: [['Ctrl + Enter', 'start, or start anew'], ['P', 'pause, go on'], ['.', 'while paused: 10 ms on'],
         ['Tab, Space, arrows', 'in the exhibit: choose, take, move']],
