@@ -20,4 +20,10 @@ for unit in deploy/systemd/*.service; do
     status=1
   fi
 done
+# The gateway reads what the server keeps for its own account alone.
+accounts=$(sed -n 's/^User=//p' deploy/systemd/mechane-server.service deploy/systemd/mechane-gateway.service | sort -u)
+if [[ "$accounts" != mechane ]] || ! grep -q "^u $accounts " deploy/systemd/mechane.conf; then
+  echo "mechane-server and mechane-gateway must have the account of deploy/systemd/mechane.conf"
+  status=1
+fi
 exit $status
