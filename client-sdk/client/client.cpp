@@ -432,9 +432,9 @@ std::vector<DeviceReport> ClientImpl::devices() {
   if (!watch_) return all;
   const auto told = watch_->devices();
   const std::lock_guard lock(mutex_);
-  for (const auto& [session, report] : told) {
-    const std::uint64_t owner = assignment_ ? assignment_->owners[report.user].session : 0;
-    if (owner == 0 || owner == session) all.push_back(report);
+  for (const auto& [session, device] : told) {
+    const std::uint64_t owner = assignment_ ? assignment_->owners[device.report.user].session : 0;
+    if (owner == 0 || owner == session) all.push_back(device.report);
   }
   std::ranges::stable_sort(all, {}, &DeviceReport::user);
   return all;

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <map>
 #include <tuple>
 
+#include "client-sdk/client/device_watch.hpp"
 #include "client-sdk/client/parse.hpp"
 #include "server/realtime/wakeup.hpp"
 #include <mechane/client/displays.hpp>
@@ -22,6 +24,9 @@ class DisplayWatchImpl final : public DisplayWatch {
     auto reader = proto::Reader<proto::DisplayStatus>::create(participant_, "", [this](auto) { news_.signal(); });
     if (!reader) return tl::unexpected(reader.error());
     reader_ = std::move(*reader);
+    auto devices = DeviceWatch::create(participant_, "", [this] { news_.signal(); });
+    if (!devices) return tl::unexpected(devices.error());
+    devices_ = std::move(*devices);
     return {};
   }
 
@@ -40,6 +45,14 @@ class DisplayWatchImpl final : public DisplayWatch {
     std::vector<DisplayStatus> all;
     for (const auto& [key, status] : known_)
       all.push_back(status);
+    return all;
+  }
+
+  [[nodiscard]] std::vector<KioskDevice> devices() override {
+    std::vector<KioskDevice> all;
+    for (auto& [session, device] : devices_->devices())
+      if (device.report.state != DeviceState::none) all.push_back(std::move(device));
+    std::ranges::stable_sort(all, {}, [](const KioskDevice& one) { return std::tie(one.kiosk, one.report.user); });
     return all;
   }
 
@@ -78,7 +91,8 @@ class DisplayWatchImpl final : public DisplayWatch {
   std::map<Key, DisplayStatus> known_;
   realtime::Wakeup news_;
   proto::Writer<proto::DisplayRequest> requests_;
-  proto::Reader<proto::DisplayStatus> reader_;  // last: its listener ends first
+  proto::Reader<proto::DisplayStatus> reader_;  // last, with the next: their listeners end first
+  std::unique_ptr<DeviceWatch> devices_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "client-sdk/gateway/operator_api.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <nlohmann/json.hpp>
 
@@ -69,8 +70,23 @@ std::string origin_seen(const HttpRequest& request) {
   return (request.secure ? "https://" : "http://") + request.header("host");
 }
 
+ApiJson device_json(const client::DeviceReport& device) {
+  constexpr std::array kStates{"none",         "preparing", "ready", "let-go", "not-ready",
+                               "uncalibrated", "warm",      "hot",   "lost"};
+  static_assert(kStates.size() == static_cast<std::size_t>(client::DeviceState::lost) + 1);
+  return {{"user", device.user},
+          {"name", device.name},
+          {"state", kStates[static_cast<std::size_t>(device.state)]},
+          {"kind", device.kind == client::HandKind::glove ? "glove" : "one-point"},
+          {"side", device.side == client::HandSide::left ? "left" : "right"}};
+}
+
 ApiJson kiosk_json(GatewaySite& site, const std::string& kiosk, const HttpRequest& request, bool with_address) {
-  ApiJson out{{"kiosk", kiosk}, {"displays", ApiJson::array()}, {"scenario", ""}, {"world", ""}, {"browsers", 0}};
+  ApiJson out{
+      {"kiosk", kiosk}, {"displays", ApiJson::array()}, {"devices", ApiJson::array()}, {"scenario", ""}, {"world", ""},
+      {"browsers", 0}};
+  for (const client::KioskDevice& device : site.watch().devices())
+    if (device.kiosk == kiosk) out["devices"].push_back(device_json(device.report));
   for (const DisplayStatus& display : site.watch().displays()) {
     if (display.kiosk != kiosk) continue;
     out["displays"].push_back(display_json(display));

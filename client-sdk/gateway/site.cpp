@@ -316,6 +316,8 @@ std::vector<std::string> GatewaySite::kiosks() {
   std::vector<std::string> all = options_.kiosks;
   for (const client::DisplayStatus& display : watch_.displays())
     all.push_back(display.kiosk);
+  for (const client::KioskDevice& device : watch_.devices())
+    all.push_back(device.kiosk);
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -2,7 +2,7 @@ import { expect, it, vi } from 'vitest';
 import { Api, kioskOf, serverOf } from '../src/console/api';
 import { ExhibitDesk } from '../src/console/exhibit_desk.svelte';
 import { exhibitsOf, lasting, otherTitles, titleOf, worldsOf } from '../src/console/exhibits';
-import { faultsOf } from '../src/console/faults';
+import { deviceLine, faultsOf } from '../src/console/faults';
 import { bytesOf, hoursFrom, operationsOf, orders } from '../src/console/operations';
 
 const answer = (status: number, body: unknown): Response => new Response(JSON.stringify(body), { status });
@@ -19,6 +19,17 @@ it('a fault has its place and a remedy, and a healthy museum has none', () => {
   expect(faults.map((f) => f.where)).toEqual([...Array<string>(5).fill('Server'), ...Array<string>(4).fill('k, wall')]);
   expect(faults.every((f) => f.remedy !== '')).toBe(true);
   expect(faultsOf(serverOf(null), []).length).toBe(1);
+});
+
+it('a haptic device that is ill is a fault, and one that rests is none', () => {
+  const states = ['preparing', 'ready', 'let-go', 'not-ready', 'uncalibrated', 'warm', 'hot', 'lost', 'of a later version'];
+  const devices = states.map((state, user) => ({ user, name: user === 3 ? '' : 'Falcon', state, kind: 'one-point' }));
+  const kiosk = kioskOf({ kiosk: 'k', displays: [], devices });
+  const faults = faultsOf(null, [kiosk]);
+  expect(faults.map((f) => f.where)).toEqual(['k, device 4', ...Array<string>(4).fill('k, Falcon')]);
+  expect(kiosk.devices.map((device) => deviceLine(device).health).join()).toBe('good,good,good,warn,warn,warn,bad,bad,good');
+  expect(deviceLine({ user: 0, name: 'CyberGrasp', state: 'let-go', kind: 'glove', side: 'left' }).words).toBe('left glove, let go');
+  expect(kioskOf({}).devices).toEqual([]);
 });
 
 it('hours are sent as they are written, without blanks', () => {

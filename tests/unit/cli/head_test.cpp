@@ -35,6 +35,7 @@ class Museum final : public client::DisplayWatch {
  public:
   void wait(Duration) override {}
   [[nodiscard]] std::vector<client::DisplayStatus> displays() override { return all; }
+  [[nodiscard]] std::vector<client::KioskDevice> devices() override { return {}; }
   [[nodiscard]] Expected<std::uint64_t> request(const std::string&, const std::string&,
                                                 const client::DisplayRequest&) override {
     return fail(ErrorCode::not_supported, "nobody requests here");

@@ -28,6 +28,17 @@ export interface KioskInfo {
   scenario: string;
   address: string;
   displays: DisplayInfo[];
+  devices: DeviceInfo[];
+}
+/** A haptic device at a kiosk. */
+export interface DeviceInfo {
+  user: number;
+  /** Maker and model. */
+  name: string;
+  state: string;
+  /** 'glove' or 'one-point'. */
+  kind: string;
+  side: string;
 }
 export interface ServerInfo {
   reached: boolean;
@@ -203,5 +214,7 @@ function displayOf(v: unknown): DisplayInfo {
 
 export function kioskOf(v: unknown): KioskInfo {
   const k = fields(v);
-  return { kiosk: text(k.kiosk), scenario: text(k.scenario), address: text(k.address), displays: list(k.displays).map(displayOf) };
+  return { kiosk: text(k.kiosk), scenario: text(k.scenario), address: text(k.address), displays: list(k.displays).map(displayOf),
+    devices: list(k.devices).map(fields).map((d) => ({ user: number(d.user), name: text(d.name), state: text(d.state), kind: text(d.kind),
+      side: text(d.side) })) };
 }

@@ -1,5 +1,5 @@
 // What is wrong now, and what a technician does about it.
-import type { DisplayInfo, KioskInfo, ServerInfo } from './api';
+import type { DeviceInfo, DisplayInfo, KioskInfo, ServerInfo } from './api';
 
 export interface Fault {
   where: string;
@@ -54,7 +54,28 @@ function faultsOfDisplay(kiosk: KioskInfo, display: DisplayInfo): Fault[] {
   return faults.all;
 }
 
+/** What a device's state means, and what is done about it; others are well, or nobody holds it. */
+const kDeviceFaults: Record<string, [what: string, remedy: string]> = {
+  'not-ready': ['The device is not ready.', 'Switch it on, or take it in the hand: the driver does not tell which.'],
+  uncalibrated: ['The device is not calibrated.', "Move it into its rest position, as its maker's manual says."],
+  warm: ['The device is warm: its force is lowered.', 'It recovers by itself. Where it comes again, lower the force of this kiosk.'],
+  hot: ['The device is too hot for any force.', 'Let it cool for some minutes, and look at what visitors do with it.'],
+  lost: ['The device is gone or faulty.', 'Check its cable and its power; mechane-devices tries it by hand.'],
+};
+const deviceName = (device: DeviceInfo): string => device.name || `device ${device.user + 1}`;
+function faultsOfDevice(kiosk: KioskInfo, device: DeviceInfo): Fault[] {
+  const fault = kDeviceFaults[device.state];
+  return fault ? [{ where: `${kiosk.kiosk}, ${deviceName(device)}`, what: fault[0], remedy: fault[1] }] : [];
+}
+/** In a line: "Falcon: ready"; `health`: as of a display. */
+export const deviceLine = (device: DeviceInfo): { name: string; words: string; health: 'good' | 'warn' | 'bad' } => ({
+  name: deviceName(device),
+  words: `${device.kind === 'glove' ? `${device.side} glove, ` : ''}${device.state.replace('-', ' ')}`,
+  health: device.state === 'lost' || device.state === 'hot' ? 'bad' : kDeviceFaults[device.state] ? 'warn' : 'good',
+});
+
 export const faultsOf = (server: ServerInfo | null, kiosks: KioskInfo[]): Fault[] => [
   ...(server ? faultsOfServer(server) : []),
-  ...kiosks.flatMap((kiosk) => kiosk.displays.flatMap((display) => faultsOfDisplay(kiosk, display))),
+  ...kiosks.flatMap((kiosk) => [...kiosk.displays.flatMap((display) => faultsOfDisplay(kiosk, display)),
+    ...kiosk.devices.flatMap((device) => faultsOfDevice(kiosk, device))]),
 ];

@@ -138,7 +138,13 @@ struct FrameTraffic {
   std::uint64_t lost = 0;  ///< sent, but never received
 };
 
-/// All displays of a museum, for a technician's tool. Any thread, one at a time.
+/// A haptic device somewhere in the museum.
+struct KioskDevice {
+  std::string kiosk;
+  DeviceReport report;
+};
+
+/// All displays and haptic devices of a museum, for a technician's tool. Any thread, one at a time.
 class DisplayWatch {
  public:
   static constexpr std::size_t kMostDisplays = 1000;  ///< further ones are not listed until one of these ends
@@ -152,6 +158,8 @@ class DisplayWatch {
   /// The running displays, sorted by kiosk, name and session. One that ended or lost the network disappears soon, one
   /// that hangs after 15 s.
   [[nodiscard]] virtual std::vector<DisplayStatus> displays() = 0;
+  /// What the programs of hands tell of their devices, by kiosk and user; those that have none say nothing.
+  [[nodiscard]] virtual std::vector<KioskDevice> devices() = 0;
   /// Sends a request to a kiosk's displays; `display` empty: to all of them. Returns the id with which they answer in
   /// their status; 0 where the request could not be sent. Errors: a bad name, a setting that does not exist or is out
   /// of its range.
