@@ -1,10 +1,10 @@
 #include "client-sdk/gateway/operator_api.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/browsers/device_json.hpp"
 #include "client-sdk/gateway/exhibit_api.hpp"
 #include "client-sdk/gateway/http/request_path.hpp"
 #include "client-sdk/gateway/http/security_headers.hpp"
@@ -68,17 +68,6 @@ ApiJson display_json(const DisplayStatus& display) {
 
 std::string origin_seen(const HttpRequest& request) {
   return (request.secure ? "https://" : "http://") + request.header("host");
-}
-
-ApiJson device_json(const client::DeviceReport& device) {
-  constexpr std::array kStates{"none",         "preparing", "ready", "let-go", "not-ready",
-                               "uncalibrated", "warm",      "hot",   "lost"};
-  static_assert(kStates.size() == static_cast<std::size_t>(client::DeviceState::lost) + 1);
-  return {{"user", device.user},
-          {"name", device.name},
-          {"state", kStates[static_cast<std::size_t>(device.state)]},
-          {"kind", device.kind == client::HandKind::glove ? "glove" : "one-point"},
-          {"side", device.side == client::HandSide::left ? "left" : "right"}};
 }
 
 ApiJson kiosk_json(GatewaySite& site, const std::string& kiosk, const HttpRequest& request, bool with_address) {

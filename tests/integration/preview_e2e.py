@@ -220,7 +220,13 @@ class Preview(WithGateway):
         process, page = self.gateway()
         self.posted(page, "/api/studio/drafts", {"name": NAME, "from": "template:crank-and-rope"})
         self.posted(page, f"{PREVIEW}/edit", {"revision": 0}, 409)
-        browser = self.browser(page, self.tried(page, 0))
+        preview = self.tried(page, 0)
+        browser = self.browser(page, preview)
+        # A device is there, too, and stays.
+        where = ("--kiosk", preview["kiosk"], "--domain", str(preview["domain"]))
+        haptic = self.start("haptic", "haptic", "--device", "virtual", *where, "--fifo-priority", "0")
+        device = lambda: [(one["user"], one["state"], one["kind"]) for one in self.preview(page)["devices"]]
+        wait_until(lambda: device() == [(0, "ready", "one-point")], 30, "its author sees a device")
         caption = lambda: browser.texts["world"]["caption"]["en"]
         said = lambda words: {"op": "set", "path": "activities/lift/steps/wind/text/caption.en", "value": words}
         wait_until(lambda: browser.frame.tick > 500, 20, "time goes on")
@@ -245,6 +251,7 @@ class Preview(WithGateway):
         kept = self.edited(page, 3, {"op": "set", "path": "activities/lift/steps/wind/disable", "value": "HOLD"})
         self.assertEqual((kept["revision"], kept["kept"]), (2, {"revision": 4, "by": "steps wind"}))
         self.assertEqual(browser.frame.tick > tick, browser.open, "nobody has noticed")
+        self.assertEqual((len(browser.frame.hands), haptic.running()), (1, True), haptic.text())
         self.assertNotIn("kept", self.tried(page, 4))
         self.assertFalse([line for line in self.preview(page)["said"] if line.startswith("edit ")])
         self.assertEqual(process.stop(), 0, process.text())

@@ -112,9 +112,9 @@ void KioskHub::take_news(TimePoint now) {
   const client::LinkState state = client_->state();
   publish("link", link_text(state, state == client::LinkState::refused ? client_->refusal() : ""));
   take_world();
-  const std::vector<client::DeviceReport> devices = client_->devices();
-  devices_.hear(devices, now);
-  calibration_.hear(devices, now);
+  device_reports_ = client_->devices();
+  devices_.hear(device_reports_, now);
+  calibration_.hear(device_reports_, now);
   for (const client::WorldEvent& event : client_->take_events()) {
     if (event.kind == "command_refused" && refused_.size() < kRefusalsKept)
       refused_.insert(static_cast<std::uint64_t>(event.value));

@@ -50,6 +50,7 @@ class KioskHub : public std::enable_shared_from_this<KioskHub> {
   [[nodiscard]] client::LinkState link() const { return client_ ? client_->state() : client::LinkState::searching; }
   [[nodiscard]] pointer::PointerWorld world() const;
   [[nodiscard]] const visit::DeviceNotice& devices() const { return devices_; }
+  [[nodiscard]] const std::vector<client::DeviceReport>& device_reports() const { return device_reports_; }
   [[nodiscard]] const visit::CalibrationGuide& calibration() const { return calibration_; }
   [[nodiscard]] double frames_per_s() const { return frames_per_s_; }
   /// Whether the world refused a command that client() sent.
@@ -75,6 +76,7 @@ class KioskHub : public std::enable_shared_from_this<KioskHub> {
   double frames_per_s_ = 0;
   std::set<std::uint64_t> refused_;
   visit::DeviceNotice devices_;
+  std::vector<client::DeviceReport> device_reports_;
   visit::CalibrationGuide calibration_;
   TimePoint used_, next_news_, next_follow_, next_refresh_, next_report_;
   int displays_ = 0;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/browsers/device_json.hpp"
 #include "client-sdk/studio/draft/preview_file.hpp"
 #include "server/log/log.hpp"
 #include <mechane/proto/names.hpp>
@@ -45,6 +46,10 @@ void add_world(const KioskHub& hub, const state::WorldDescription& world, const 
     still.push_back({{"def", body.def}, {"reasons", std::move(reasons)}});
   }
   out["still"] = std::move(still);
+  PreviewJson devices = PreviewJson::array();
+  for (const client::DeviceReport& device : hub.device_reports())
+    if (device.state != client::DeviceState::none) devices.push_back(device_json(device));
+  out["devices"] = std::move(devices);
 }
 
 bool shows_world(const KioskHub* hub) {
@@ -334,6 +339,7 @@ std::string PreviewDesk::look(const std::string& draft, TimePoint now) {
   if (preview.hub) {
     backstage_.tokens.use(preview.token, now);
     out["kiosk"] = preview.kiosk;
+    out["domain"] = preview.domain;
     out["address"] = fmt::format("/kiosk/{}?token={}", preview.kiosk, preview.token);
     out["socket"] = fmt::format("/ws/kiosk/{}?token={}", preview.kiosk, preview.token);
     if (shows_world(preview.hub.get())) add_world(*preview.hub, *preview.draft.world, preview.motion, out);

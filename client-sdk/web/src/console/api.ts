@@ -212,9 +212,12 @@ function displayOf(v: unknown): DisplayInfo {
   };
 }
 
+export function deviceOf(v: unknown): DeviceInfo {
+  const d = fields(v);
+  return { user: number(d.user), name: text(d.name), state: text(d.state), kind: text(d.kind), side: text(d.side) };
+}
 export function kioskOf(v: unknown): KioskInfo {
   const k = fields(v);
   return { kiosk: text(k.kiosk), scenario: text(k.scenario), address: text(k.address), displays: list(k.displays).map(displayOf),
-    devices: list(k.devices).map(fields).map((d) => ({ user: number(d.user), name: text(d.name), state: text(d.state), kind: text(d.kind),
-      side: text(d.side) })) };
+    devices: list(k.devices).map(deviceOf) };
 }

@@ -1,5 +1,5 @@
 // A draft that runs in a world of its own: what the gateway tells of it, read from its JSON, whatever is missing.
-import { fields, list, number, text } from '../../console/api';
+import { deviceOf, fields, list, number, text, type DeviceInfo } from '../../console/api';
 import type { Texts } from '../../wire/messages';
 import { textsOf } from '../view';
 
@@ -51,6 +51,10 @@ export interface Preview {
   activity: string;
   step: string;
   still: Still[];
+  /** Of its kiosk: haptic ones, and what starts another one there. */
+  devices: DeviceInfo[];
+  kiosk: string;
+  domain: number;
   visit: Played;
 }
 /** What is asked of one that runs: how fast, or, while it is paused, so many ticks of 1 ms. */
@@ -96,6 +100,9 @@ export function previewOf(v: unknown): Preview {
     activity: text(p.activity),
     step: text(p.step),
     still: list(p.still).map(stillOf),
+    devices: list(p.devices).map(deviceOf),
+    kiosk: text(p.kiosk),
+    domain: number(p.domain),
     visit: playedOf(p.visit),
   };
 }
