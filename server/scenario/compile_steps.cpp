@@ -113,14 +113,14 @@ state::Comparison comparison_of(const std::string& op) {
 }
 
 /// Reads a rule from its own set, or from a trigger that holds one comparison itself.
-state::RuleDescription read_rule(Compilation& c, const Fields& fields, StepId step) {
+state::RuleDescription read_rule(Compilation& c, const Fields& fields, StepId step, bool marked) {
   state::RuleDescription rule;
   rule.quantity = find_quantity(c, fields);
   rule.comparison = comparison_of(fields.string("op"));
   rule.value = fields.number("value");
   rule.tolerance = fields.number("tolerance");
   if (rule.quantity && fields.given("op") && fields.given("value"))
-    c.rules.push_back({fields.line("value"), fields.where(), step, rule});
+    c.rules.push_back({fields.line("value"), fields.where(), step, rule, marked});
   return rule;
 }
 
@@ -141,6 +141,7 @@ void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& 
                   state::StepDescription& out, StepId id) {
   const Fields fields(&set, trigger_table(), fmt::format("{}, {}", step, set.name), c.problems);
   std::vector<state::RuleDescription> rules;
+  const bool marked = out.triggers.empty();
   const bool several = !fields.sets_like("rule:*").empty();
   if (set.find("quantity") != nullptr || set.find("op") != nullptr || set.find("value") != nullptr) {
     for (const char* key : {"quantity", "op", "value"}) {
@@ -148,11 +149,11 @@ void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& 
       c.problems.error(ErrorCode::missing, set.line, fields.where(), fmt::format("the key '{}' is missing", key),
                        "add it: a trigger compares quantity, op and value; or write all three into a rule:1");
     }
-    rules.push_back(read_rule(c, fields, id));
+    rules.push_back(read_rule(c, fields, id, marked));
   }
   for (const x3d::Metadata* rule : fields.sets_like("rule:*")) {
     const Fields of_rule(rule, rule_table(), fmt::format("{}, {}", fields.where(), rule->name), c.problems);
-    rules.push_back(read_rule(c, of_rule, id));
+    rules.push_back(read_rule(c, of_rule, id, marked));
   }
   if (rules.size() < 2 && fields.given("match")) {
     c.problems.warning(ErrorCode::conflict, fields.line("match"), fields.where(),
