@@ -82,6 +82,19 @@ std::optional<bool> optional_boolean(const Fields& fields, std::string_view key)
   return fields.given(key) ? std::optional<bool>(fields.boolean(key)) : std::nullopt;
 }
 
+/// A step that gives a body weight, where there is nothing to pull it or nothing that can fall.
+void check_weight(Compilation& c, const Fields& fields, const state::BodyOverride& change,
+                  const state::BodyDescription& body) {
+  if (!change.use_gravity.value_or(false)) return;
+  if (body.fixed)
+    c.problems.error(ErrorCode::conflict, fields.line("useGlobalGravity"), fields.where(),
+                     "the body is fixed and cannot fall", "remove fixed='true' of the RigidBody");
+  else if (c.world.gravity_W.isZero())
+    c.problems.warning(ErrorCode::conflict, fields.line("useGlobalGravity"), fields.where(),
+                       "the body gets no weight: the gravity of the RigidBodyCollection is 0 0 0",
+                       "write gravity='0 -9.81 0' there, and useGlobalGravity='false' on what floats");
+}
+
 void read_override(Compilation& c, const x3d::Metadata& set, const std::string& step, state::StepDescription& out) {
   const std::string name = set.name.substr(std::string_view("object:").size());
   const Fields fields(&set, override_table(), fmt::format("{}, object {}", step, name), c.problems);
@@ -92,10 +105,12 @@ void read_override(Compilation& c, const x3d::Metadata& set, const std::string& 
   change.movable = optional_boolean(fields, "movable");
   change.visible = optional_boolean(fields, "visible");
   change.graspable = optional_boolean(fields, "graspable");
+  change.use_gravity = optional_boolean(fields, "useGlobalGravity");
   if (change.movable.value_or(false) && body.fixed) {
     c.problems.error(ErrorCode::conflict, fields.line("movable"), fields.where(),
                      "the body is fixed and cannot be made movable", "remove fixed='true' of the RigidBody");
   }
+  check_weight(c, fields, change, body);
   if (fields.given("position") || fields.given("orientation")) {
     change.X_WB = body.X_WB;
     if (fields.given("position")) change.X_WB->p = fields.vector("position");

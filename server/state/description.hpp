@@ -156,6 +156,7 @@ struct BodyOverride {
   std::optional<bool> visible;
   std::optional<bool> graspable;
   std::optional<Pose> X_WB;  ///< where the step puts it when it begins, at rest
+  std::optional<bool> use_gravity{};
 };
 
 struct StepDescription {
