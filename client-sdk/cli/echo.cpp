@@ -163,7 +163,9 @@ Json to_json(const proto::WorldStatus& s) {
   j.update({{"steps_total", s.steps_total}, {"done", s.done}, {"hint", s.hint}});
   Json quantities = Json::array();
   for (const auto& q : proto::elements(s.quantities)) {
-    quantities.push_back({{"name", proto::string_of(q.name)}, {"unit", proto::string_of(q.unit)}});
+    Json quantity{{"name", proto::string_of(q.name)}, {"unit", proto::string_of(q.unit)}, {"label", texts(q.label)}};
+    if (q.ranged) quantity["range"] = {q.least, q.greatest};
+    quantities.push_back(std::move(quantity));
   }
   Json goals = Json::array();
   for (const auto& goal : proto::elements(s.goals))

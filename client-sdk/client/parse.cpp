@@ -109,6 +109,16 @@ bool parse_texts(const Sequence& wire, std::map<std::string, std::string>& out) 
   return true;
 }
 
+bool parse_quantity(const proto::WireQuantity& wire, QuantityInfo& out) {
+  out.name = clean_string(wire.name);
+  out.unit = clean_string(wire.unit);
+  if (wire.ranged) {
+    if (!std::isfinite(wire.least) || !std::isfinite(wire.greatest) || !(wire.least < wire.greatest)) return false;
+    out.range = {wire.least, wire.greatest};
+  }
+  return parse_texts(wire.label, out.label);
+}
+
 template <class Sequence>
 bool parse_strings(const Sequence& wire, std::vector<std::string>& out) {
   const auto strings = proto::elements(wire);
@@ -277,8 +287,9 @@ bool parse(const proto::WorldStatus& wire, WorldStatus& out) {
   out.hint = wire.hint;
   out.detail = clean_string(wire.detail);
   out.quantities.clear();
-  for (const proto::WireQuantity& q : quantities)
-    out.quantities.push_back({clean_string(q.name), clean_string(q.unit)});
+  for (const proto::WireQuantity& q : quantities) {
+    if (!parse_quantity(q, out.quantities.emplace_back())) return false;
+  }
   const auto goals = proto::elements(wire.goals);
   if (goals.size() > quantities.size()) return false;
   for (const proto::WireQuantityGoal& goal : goals) {

@@ -17,9 +17,11 @@ struct Readout {
   std::string label;             ///< "Water lifted"
   std::string value;             ///< "12,4"
   std::string unit;              ///< "l"
-  double fraction = 0;           ///< of the gauge's end, 0..1
+  double fraction = 0;           ///< where on the gauge the value is, 0..1
   std::string end;               ///< the value at the gauge's end: "20"
   std::optional<double> goal{};  ///< where on the gauge the step's goal is, 0..1
+  std::string begin = "0";       ///< the value at the gauge's beginning
+  bool named = false;            ///< the label is the author's: the unit alone does not say what it is
 };
 
 /// Drawn under all panels, in pixels of one eye's picture; sRGB with straight alpha.

@@ -32,8 +32,9 @@
 
 namespace mechane::recording {
 
-/// The version that is written. Versions 1 (without titles of objects) and 2 (without goals) can be read too.
-inline constexpr std::uint32_t kRecordingVersion = 3;
+/// The version that is written. Versions 1 (without titles of objects), 2 (without goals) and 3 (without labels and ranges of quantities)
+/// can be read too.
+inline constexpr std::uint32_t kRecordingVersion = 4;
 inline constexpr std::uint64_t kMaxRecordingBytes = std::uint64_t{1} << 30U;
 
 enum class RecordKind : std::uint8_t { status = 1, presentation, manifest, frame, event, end };

@@ -160,6 +160,21 @@ void goal_fields(Fields& f, Status& s) {
   }
 }
 
+/// The quantities' names for visitors, and the ranges of their gauges. Recordings of older versions end before them.
+template <class Fields, class Status>
+void gauge_fields(Fields& f, Status& s) {
+  for (auto& quantity : s.quantities) {
+    f.texts(quantity.label);
+    bool there = quantity.range.has_value();
+    f.flag(there);
+    if (!there) continue;
+    if constexpr (!std::is_const_v<Status>) quantity.range = client::QuantityInfo::Range{};
+    f.wide(quantity.range->least);
+    f.wide(quantity.range->greatest);
+    f.must(quantity.range->least < quantity.range->greatest);
+  }
+}
+
 template <class Fields, class Question>
 void question_fields(Fields& f, Question& q) {
   f.text(q.name);
@@ -285,6 +300,7 @@ std::vector<std::byte> encode(const client::WorldStatus& status) {
   return written([&](FieldWriter& f) {
     status_fields(f, status);
     goal_fields(f, status);
+    gauge_fields(f, status);
   });
 }
 
@@ -311,7 +327,8 @@ std::vector<std::byte> encode(const client::WorldEvent& event) {
 bool decode(std::span<const std::byte> bytes, client::WorldStatus& out) {
   return read_whole(bytes, [&](FieldReader& f) {
     status_fields(f, out);
-    if (!f.at_end()) goal_fields(f, out);  // versions 1 and 2 have none
+    if (!f.at_end()) goal_fields(f, out);   // versions 1 and 2 have none
+    if (!f.at_end()) gauge_fields(f, out);  // neither has version 3
   });
 }
 

@@ -37,6 +37,44 @@ std::optional<ReadableUnit> readable(const std::string& unit) {
   return found == kUnits.end() ? std::nullopt : std::optional(*found);
 }
 
+/// Other units that visitors read otherwise than authors write them.
+struct UnitSymbol {
+  std::string_view unit, en, el;
+};
+
+constexpr std::array<UnitSymbol, 4> kSymbols{
+    {{"deg", "°", "°"}, {"turns", "turns", "στροφές"}, {"m2", "m²", "m²"}, {"m3", "m³", "m³"}}};
+
+/// A unit that displays know, or one that the author's label explains. What has no unit is counted in whole numbers.
+ReadableUnit unit_of(const client::QuantityInfo& info) {
+  if (const auto known = readable(info.unit)) return *known;
+  const auto* const symbol = std::ranges::find(kSymbols, info.unit, &UnitSymbol::unit);
+  const bool has_symbol = symbol != kSymbols.end();
+  return {info.unit,
+          {},
+          {},
+          has_symbol ? symbol->en : info.unit,
+          has_symbol ? symbol->el : info.unit,
+          1,
+          info.unit.empty() ? 0 : 1};
+}
+
+/// Visitors see which way a crank turns; a minus before its speed would only confuse, unless its gauge begins below 0.
+double as_shown(const client::QuantityInfo& info, double value) {
+  return info.unit == "rpm" && !(info.range && info.range->least < 0) ? std::abs(value) : value;
+}
+
+/// Where a value is on a gauge, 0..1. One without a range has no sign.
+double place_of(const client::QuantityInfo& info, double value, double end) {
+  if (!info.range) return std::abs(value) / end;
+  return std::clamp((as_shown(info, value) - info.range->least) / (info.range->greatest - info.range->least), 0.0, 1.0);
+}
+
+/// Decimals with which a value moves on a gauge of this length at least at each hundredth.
+int decimals_for(double length) {
+  return length >= 20 ? 0 : length >= 2 ? 1 : 2;
+}
+
 std::string number(double value, int decimals, bool greek) {
   if (std::abs(value) >= 100) decimals = 0;  // tenths do not matter there, and do not fit into the gauge
   // No minus before a rounded zero.
@@ -44,6 +82,14 @@ std::string number(double value, int decimals, bool greek) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (greek) std::ranges::replace(text, '.', ',');
   return text;
+}
+
+/// The end of a range as its author wrote it.
+std::string end_text(double end, bool greek) {
+  int decimals = 0;
+  for (double ten = 1; decimals < 3 && std::abs(std::remainder(end * ten, 1.0)) > 1e-6; ten *= 10)
+    ++decimals;
+  return number(end, decimals, greek);
 }
 
 }  // namespace
@@ -80,23 +126,48 @@ picture::OverlayContent OverlayWriter::write(const client::WorldStatus& status, 
   content.steps_done = status.steps_done;
   content.steps_total = status.steps_total;
   if (frame == nullptr) return content;
+  // At most one readout per unit, so that the panel stays simple, except those that the author has named.
   std::set<std::string> shown;
+  for (const client::QuantityInfo& info : status.quantities) {
+    if (!info.label.empty()) shown.insert(info.unit);
+  }
   for (std::size_t i = 0; i < std::min(status.quantities.size(), frame->quantities.size()); ++i) {
     const client::QuantityInfo& info = status.quantities[i];
-    // Visitors see which way a crank turns; a minus before its speed would only confuse.
-    const double value = info.unit == "rpm" ? std::abs(frame->quantities[i]) : frame->quantities[i];
-    const std::optional<ReadableUnit> unit = readable(info.unit);
-    // At most one readout per unit, so that the panel stays simple.
-    if (!unit || !std::isfinite(value) || !shown.insert(info.unit).second) continue;
-    double& end = gauge_end_.try_emplace(info.name, unit->first_end).first->second;
-    const double goal = info.goal ? std::abs(info.goal->value) : 0;
-    if (const double most = std::max(std::abs(value), goal); most > end) end = round_up_to_scale(std::max(most, 1e-6));
-    content.readouts.push_back(
-        {std::string(greek ? unit->label_el : unit->label_en), number(value, unit->decimals, greek),
-         std::string(greek ? unit->unit_el : unit->unit_en), std::abs(value) / end, number(end, end < 1 ? 1 : 0, greek),
-         info.goal && !status.done ? std::optional(goal / end) : std::nullopt});
+    if (!std::isfinite(frame->quantities[i])) continue;
+    if (info.label.empty() && (!readable(info.unit) || !shown.insert(info.unit).second)) continue;
+    content.readouts.push_back(readout_of(info, as_shown(info, frame->quantities[i])));
+    if (status.done) content.readouts.back().goal.reset();
   }
   return content;
+}
+
+picture::Readout OverlayWriter::readout_of(const client::QuantityInfo& info, double value) {
+  const bool greek = language_ == "el";
+  const ReadableUnit unit = unit_of(info);
+  picture::Readout out;
+  out.named = !info.label.empty();
+  out.label = out.named ? text_in(info.label, language_) : std::string(greek ? unit.label_el : unit.label_en);
+  out.unit = greek ? unit.unit_el : unit.unit_en;
+  int decimals = unit.decimals;
+  double end = 0;
+  if (info.range) {
+    end = info.range->greatest;
+    const double length = end - info.range->least;
+    if (!info.unit.empty() || length < 2) decimals = std::max(decimals, decimals_for(length));
+    out.begin = end_text(info.range->least, greek);
+    out.end = end_text(end, greek);
+  } else {
+    double& grown = gauge_end_.try_emplace(info.name, unit.first_end).first->second;
+    const double goal = info.goal ? std::abs(info.goal->value) : 0;
+    if (const double most = std::max(std::abs(value), goal); most > grown)
+      grown = round_up_to_scale(std::max(most, 1e-6));
+    end = grown;
+    out.end = number(end, end < 1 ? 1 : 0, greek);
+  }
+  out.value = number(value, decimals, greek);
+  out.fraction = place_of(info, value, end);
+  if (info.goal) out.goal = place_of(info, info.goal->value, end);
+  return out;
 }
 
 }  // namespace mechane::visit

@@ -15,8 +15,9 @@ namespace mechane::visit {
 /// A calm note while there is no link or no hand; empty when all is well.
 [[nodiscard]] std::string link_note(client::LinkState state, bool had_world, const std::string& language);
 
-/// Caption, steps and readouts. A quantity is shown when its unit is one for visitors (l, rpm, N, degC, km/h ...).
-/// Gauges grow to include the value and the step's goal; their ends are kept by name between calls.
+/// Caption, steps and readouts. A quantity is shown when its author gave it a label; and the first in a unit for visitors
+/// (state::gauge_units()) where none in that unit has a label. A gauge has the author's range; without one it grows to include the value
+/// and the step's goal, and its end is kept by name between calls.
 class OverlayWriter {
  public:
   explicit OverlayWriter(std::string language) : language_(std::move(language)) {}
@@ -24,6 +25,8 @@ class OverlayWriter {
   [[nodiscard]] picture::OverlayContent write(const client::WorldStatus& status, const client::Frame* frame);
 
  private:
+  picture::Readout readout_of(const client::QuantityInfo& info, double value);
+
   std::string language_;
   std::map<std::string, double> gauge_end_;
 };

@@ -149,6 +149,7 @@ void ProgressRules::enter_step(state::WorldState& state, StepId id) const noexce
     if (change.movable) body.movable = *change.movable;
     if (change.visible) body.visible = *change.visible;
     if (change.graspable) body.graspable = *change.graspable;
+    if (change.use_gravity) body.use_gravity = *change.use_gravity;
     if (!change.X_WB) continue;
     for (std::size_t u = 0; u < state.users.size(); ++u) {
       if (state.users[u].holds(change.body)) let_go(state, u);

@@ -28,7 +28,6 @@ struct Body {
   Vec3 principal_kg_m2;  // simulated
   double mass_kg;        // simulated
   bool fixed;
-  bool use_gravity;
   Wrench drive;       // simulated
   bool moves = true;  // whether Bullet has its mass now
   GripBody grip;
@@ -40,7 +39,6 @@ struct Body {
         principal_kg_m2(principal),
         mass_kg(mass),
         fixed(from.fixed),
-        use_gravity(from.use_gravity),
         drive{from.effort_scale * from.drive.f, from.effort_scale * from.drive.t},
         grip(grip_body(from)) {
     bullet.setDamping(from.linear_damping, from.angular_damping);
@@ -271,7 +269,7 @@ void DynamicsWorld::Impl::apply_forces(state::WorldState& state, double dt_s) {
     Body& body = *bodies[i];
     Wrench& load = state.bodies[i].load_W;
     if (body.moves) {
-      const Vec3 weight = body.use_gravity ? Vec3(body.mass_kg * gravity_W) : Vec3::Zero();
+      const Vec3 weight = state.bodies[i].use_gravity ? Vec3(body.mass_kg * gravity_W) : Vec3::Zero();
       const Vec3 arm = frames[i].X_WB.p - frames[i].p_WCm;
       body.bullet.applyCentralForce(to_bt(weight + body.drive.f + load.f));
       body.bullet.applyTorque(to_bt(body.drive.t + load.t + arm.cross(load.f)));

@@ -41,9 +41,9 @@ bool is_free(const state::WorldDescription& description, const state::WorldState
          std::ranges::count_if(state.users, [&](const auto& user) { return user.holds(body); }) == 1;
 }
 
-HeldPath weight(const state::WorldDescription& description, const state::Grasp& grasp) {
+HeldPath weight(const state::WorldDescription& description, const state::WorldState& state, const state::Grasp& grasp) {
   const state::BodyDescription& body = description.bodies[grasp.body.index()];
-  if (!body.use_gravity || description.gravity_W.isZero(0)) return {};
+  if (!state[grasp.body].use_gravity || description.gravity_W.isZero(0)) return {};
   HeldPath path;
   path.kind = HeldPath::Kind::free;
   path.p_HG = grasp.X_HB * body.p_BCm;
@@ -61,7 +61,7 @@ HeldPath held_path(const state::WorldDescription& description, const state::Worl
   if (!grasp.active || !state[grasp.body].movable) return {};
   const std::size_t j = only_joint(description, state, grasp.body);
   if (j == description.joints.size())
-    return is_free(description, state, grasp.body) ? weight(description, grasp) : HeldPath{};
+    return is_free(description, state, grasp.body) ? weight(description, state, grasp) : HeldPath{};
   const JointDescription& joint = description.joints[j];
   if (joint.kind == JointKind::ball || state.joints[j].pitch_m_per_rad != 0) return {};
   // Not one that is only held still for now: agents and machines move such bodies themselves.

@@ -119,6 +119,9 @@ class Projectile final : public Machine {
   [[nodiscard]] Vec3 v_WCm(const state::BodyState& body) const noexcept {
     return body.V_WB.at(body.X_WB.rotate(s_.p_BCm));
   }
+  [[nodiscard]] Vec3 gravity_W(const state::BodyState& body) const noexcept {
+    return body.use_gravity ? s_.gravity_W : Vec3(Vec3::Zero());
+  }
   void push(state::BodyState& body, const Vec3& f_W) const noexcept {
     state::add_force(body, s_.felt_scale * f_W, p_WCm(body));
   }
@@ -148,7 +151,7 @@ class Projectile final : public Machine {
     body.movable = true;
     push(body, s_.mass_kg * (v_W - v_WCm(body)) / dt_s);
     from_.write(state, p_WCm(body));
-    expected_.write(state, v_W + dt_s * s_.gravity_W);
+    expected_.write(state, v_W + dt_s * gravity_W(body));
     for (const std::size_t slot : {range_, height_, time_, struck_, hit_, off_centre_, depth_})
       state.memory[slot] = 0;
     state.memory[energy_] = energy_j;
@@ -182,7 +185,7 @@ class Projectile final : public Machine {
     const Vec3 drag_W = -s_.drag_kg_per_m * v_W.norm() * v_W;
     push(body, drag_W);
     if (!s_.axis_B.isZero()) fledge(body, v_W, dt_s);
-    expected_.write(state, v_W + dt_s * (s_.gravity_W + drag_W / s_.mass_kg));
+    expected_.write(state, v_W + dt_s * (gravity_W(body) + drag_W / s_.mass_kg));
   }
 
   void follow(state::WorldState& state, const Vec3& p_W) const noexcept {
@@ -248,7 +251,7 @@ class Projectile final : public Machine {
       return;
     }
     const double stop_n = std::min(ticks * s_.target.stop_n, s_.mass_kg * speed / dt_s);
-    push(body, -stop_n / speed * v_W - s_.mass_kg * s_.gravity_W);
+    push(body, -stop_n / speed * v_W - s_.mass_kg * gravity_W(body));
     body.V_WB = {v_W, Vec3::Zero()};
     state.memory[speed_] = speed - stop_n * dt_s / s_.mass_kg;
   }
@@ -320,7 +323,7 @@ Expected<std::unique_ptr<Machine>> make_projectile(const Build& build) {
   s.drag_kg_per_m = 0.5 * kAirDensity_kg_m3 * p.number("dragCoefficient") * kPi * radius_m * radius_m;
   s.has_ground = p.given("ground");
   s.ground_m = p.number("ground");
-  s.gravity_W = body.use_gravity ? build.description.gravity_W : Vec3(Vec3::Zero());
+  s.gravity_W = build.description.gravity_W;
   s.target = *target;
   return std::make_unique<Projectile>(build, s, *offer);
 }

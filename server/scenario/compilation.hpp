@@ -27,6 +27,7 @@ struct WrittenRule {
   std::string where;
   StepId step;
   state::RuleDescription rule;
+  bool marked = false;  ///< of the step's first trigger: displays mark it on a gauge
 };
 
 /// A world in the making. Each stage reads the document and adds to the world. A fault becomes a problem and the stage goes on, so that
@@ -40,6 +41,7 @@ struct Compilation {
   std::optional<x3d::Metadata> scenario;            ///< the tree of the WorldInfo
   std::map<std::string, std::string> model_hashes;  ///< by url as written
   std::vector<int> body_lines;                      ///< by BodyId
+  std::map<std::string, int> quantity_lines;        ///< by the quantity's name, of those written as sets
   std::vector<int> activity_lines;                  ///< by ActivityId
   std::vector<int> step_lines;                      ///< by StepId
   std::vector<std::vector<int>> question_lines;     ///< by ActivityId, then as in its questionnaire

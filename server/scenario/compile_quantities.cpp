@@ -150,6 +150,28 @@ void check_unit_fits(Compilation& c, const state::QuantityDescription& quantity,
       plain ? std::string("leave the unit out") : fmt::format("write {}", fmt::join(units, " or ")));
 }
 
+/// A range needs an end, the right way round, and a gauge on which it is seen.
+void read_range(Compilation& c, const Fields& fields, state::QuantityDescription& quantity) {
+  const bool ends = fields.given("greatest");
+  if (!ends && !fields.given("least")) return;
+  const int line = fields.line("least");
+  const state::GaugeRange range{fields.number("least"), fields.number("greatest")};
+  if (!ends) {
+    c.problems.error(ErrorCode::missing, line, fields.where(), "the range has no end", "add greatest, or remove least");
+  } else if (range.least >= range.greatest) {
+    c.problems.error(
+        ErrorCode::conflict, fields.line("greatest"), fields.where(),
+        fmt::format("the range is reversed: its least, {}, is not below its greatest, {}", range.least, range.greatest),
+        "exchange them");
+  } else {
+    quantity.range = range;
+    if (!quantity.label.empty() || one_of(quantity.unit, state::gauge_units())) return;
+    c.problems.warning(ErrorCode::conflict, fields.line("greatest"), fields.where(),
+                       "the range is not seen: displays do not show this quantity",
+                       "give it a text with label.LANGUAGE");
+  }
+}
+
 }  // namespace
 
 void compile_quantities(Compilation& c) {
@@ -169,7 +191,10 @@ void compile_quantities(Compilation& c) {
       if (fields.has_faults()) c.misspelt_parameters.emplace(quantity.name, "unit");
       check_unit(c, quantity.unit, fields.line("unit"), where);
       check_unit_fits(c, quantity, fields.line("unit"), where);
+      quantity.label = read_texts(c, fields.set("text"), where + ", text", "label")["label"];
+      read_range(c, fields, quantity);
       line = fields.line("source");
+      c.quantity_lines[quantity.name] = item.line;
     } else if (item.kind != x3d::MetadataKind::unreadable) {
       c.problems.error(ErrorCode::invalid_value, item.line, where, "this quantity is neither a source nor a set",
                        "write a MetadataString like \"PUMP.basin_l\"");

@@ -82,6 +82,19 @@ std::optional<bool> optional_boolean(const Fields& fields, std::string_view key)
   return fields.given(key) ? std::optional<bool>(fields.boolean(key)) : std::nullopt;
 }
 
+/// A step that gives a body weight, where there is nothing to pull it or nothing that can fall.
+void check_weight(Compilation& c, const Fields& fields, const state::BodyOverride& change,
+                  const state::BodyDescription& body) {
+  if (!change.use_gravity.value_or(false)) return;
+  if (body.fixed)
+    c.problems.error(ErrorCode::conflict, fields.line("useGlobalGravity"), fields.where(),
+                     "the body is fixed and cannot fall", "remove fixed='true' of the RigidBody");
+  else if (c.world.gravity_W.isZero())
+    c.problems.warning(ErrorCode::conflict, fields.line("useGlobalGravity"), fields.where(),
+                       "the body gets no weight: the gravity of the RigidBodyCollection is 0 0 0",
+                       "write gravity='0 -9.81 0' there, and useGlobalGravity='false' on what floats");
+}
+
 void read_override(Compilation& c, const x3d::Metadata& set, const std::string& step, state::StepDescription& out) {
   const std::string name = set.name.substr(std::string_view("object:").size());
   const Fields fields(&set, override_table(), fmt::format("{}, object {}", step, name), c.problems);
@@ -92,10 +105,12 @@ void read_override(Compilation& c, const x3d::Metadata& set, const std::string& 
   change.movable = optional_boolean(fields, "movable");
   change.visible = optional_boolean(fields, "visible");
   change.graspable = optional_boolean(fields, "graspable");
+  change.use_gravity = optional_boolean(fields, "useGlobalGravity");
   if (change.movable.value_or(false) && body.fixed) {
     c.problems.error(ErrorCode::conflict, fields.line("movable"), fields.where(),
                      "the body is fixed and cannot be made movable", "remove fixed='true' of the RigidBody");
   }
+  check_weight(c, fields, change, body);
   if (fields.given("position") || fields.given("orientation")) {
     change.X_WB = body.X_WB;
     if (fields.given("position")) change.X_WB->p = fields.vector("position");
@@ -113,14 +128,14 @@ state::Comparison comparison_of(const std::string& op) {
 }
 
 /// Reads a rule from its own set, or from a trigger that holds one comparison itself.
-state::RuleDescription read_rule(Compilation& c, const Fields& fields, StepId step) {
+state::RuleDescription read_rule(Compilation& c, const Fields& fields, StepId step, bool marked) {
   state::RuleDescription rule;
   rule.quantity = find_quantity(c, fields);
   rule.comparison = comparison_of(fields.string("op"));
   rule.value = fields.number("value");
   rule.tolerance = fields.number("tolerance");
   if (rule.quantity && fields.given("op") && fields.given("value"))
-    c.rules.push_back({fields.line("value"), fields.where(), step, rule});
+    c.rules.push_back({fields.line("value"), fields.where(), step, rule, marked});
   return rule;
 }
 
@@ -141,6 +156,7 @@ void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& 
                   state::StepDescription& out, StepId id) {
   const Fields fields(&set, trigger_table(), fmt::format("{}, {}", step, set.name), c.problems);
   std::vector<state::RuleDescription> rules;
+  const bool marked = out.triggers.empty();
   const bool several = !fields.sets_like("rule:*").empty();
   if (set.find("quantity") != nullptr || set.find("op") != nullptr || set.find("value") != nullptr) {
     for (const char* key : {"quantity", "op", "value"}) {
@@ -148,11 +164,11 @@ void read_trigger(Compilation& c, const Written& activity, const x3d::Metadata& 
       c.problems.error(ErrorCode::missing, set.line, fields.where(), fmt::format("the key '{}' is missing", key),
                        "add it: a trigger compares quantity, op and value; or write all three into a rule:1");
     }
-    rules.push_back(read_rule(c, fields, id));
+    rules.push_back(read_rule(c, fields, id, marked));
   }
   for (const x3d::Metadata* rule : fields.sets_like("rule:*")) {
     const Fields of_rule(rule, rule_table(), fmt::format("{}, {}", fields.where(), rule->name), c.problems);
-    rules.push_back(read_rule(c, of_rule, id));
+    rules.push_back(read_rule(c, of_rule, id, marked));
   }
   if (rules.size() < 2 && fields.given("match")) {
     c.problems.warning(ErrorCode::conflict, fields.line("match"), fields.where(),

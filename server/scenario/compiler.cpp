@@ -230,7 +230,7 @@ Expected<std::string> hash_file(const std::filesystem::path& file) {
 
 Expected<state::WorldDescription> compile(const x3d::Document& document, ObjectLoader& loader,
                                           x3d::Problems& problems) {
-  Compilation c{document, loader, problems, x3d::ShapeTree(document), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Compilation c{document, loader, problems, x3d::ShapeTree(document), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   compile_all(c);
   if (problems.has_errors()) return tl::unexpected(problems.first_error());
   return std::move(c.world);

@@ -45,6 +45,9 @@ Wordings wordings_of(const state::WorldDescription& world) {
   }
   for (const state::BodyDescription& body : world.bodies)
     if (!body.title.empty()) add_wording(wordings, fmt::format("body {}, title", body.name), body.title);
+  for (const state::QuantityDescription& quantity : world.quantities)
+    if (!quantity.label.empty())
+      add_wording(wordings, fmt::format("quantity {}, label", quantity.name), quantity.label);
   for (const state::StepDescription& step : world.steps) {
     if (!step.texts.contains("caption")) add_wording(wordings, fmt::format("step {}, caption", step.name), {});
     for (const auto& [what, texts] : step.texts)

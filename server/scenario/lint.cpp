@@ -1,5 +1,6 @@
 // Warnings of what compiles, but is likely not meant.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -50,6 +51,10 @@ void check_all_texts(Compilation& c) {
   for (std::size_t i = 0; i < c.world.bodies.size(); ++i) {
     const state::BodyDescription& body = c.world.bodies[i];
     if (!body.title.empty()) check_texts(c, body.title, c.body_lines[i], "mechane:body of " + body.name, "title");
+  }
+  for (const state::QuantityDescription& quantity : c.world.quantities) {
+    if (quantity.label.empty()) continue;
+    check_texts(c, quantity.label, c.quantity_lines[quantity.name], "quantity " + quantity.name, "label");
   }
   for (std::size_t i = 0; i < c.world.activities.size(); ++i) {
     const state::ActivityDescription& activity = c.world.activities[i];
@@ -132,6 +137,22 @@ void check_triggers(Compilation& c) {
   }
 }
 
+/// Goals that displays would mark on a gauge, and that are not on it.
+void check_gauges(Compilation& c) {
+  for (const WrittenRule& written : c.rules) {
+    const state::QuantityDescription& quantity = c.world.quantities[written.rule.quantity.index()];
+    if (!written.marked || !quantity.range || written.rule.comparison == state::Comparison::equal) continue;
+    const state::GaugeRange range = *quantity.range;
+    // Gauges of a speed that begin at 0 or above show it without its sign.
+    const double goal = quantity.unit == "rpm" && range.least >= 0 ? std::abs(written.rule.value) : written.rule.value;
+    if (goal >= range.least && goal <= range.greatest) continue;
+    c.problems.warning(ErrorCode::conflict, written.line, written.where,
+                       fmt::format("the goal {} is outside the gauge of '{}', which goes from {} to {}",
+                                   written.rule.value, quantity.name, range.least, range.greatest),
+                       fmt::format("let the gauge's {} be {}", goal < range.least ? "least" : "greatest", goal));
+  }
+}
+
 void check_visits(Compilation& c) {
   for (std::size_t i = 0; i < c.world.activities.size(); ++i) {
     const auto plays = [&](const state::VisitDescription& visit) {
@@ -211,6 +232,7 @@ void lint(Compilation& c) {
   check_all_texts(c);
   check_reach(c);
   check_triggers(c);
+  check_gauges(c);
   lint_bodies(c);
   lint_touch(c);
   check_sounds(c);

@@ -57,8 +57,11 @@ bool says_movable(const StepDescription& step, BodyId body) {
   return change != nullptr && change->movable.has_value();
 }
 
-bool has_weight(const state::WorldDescription& world, const state::BodyDescription& body) {
-  return body.use_gravity && !world.gravity_W.isZero();
+/// As this step begins an activity.
+bool has_weight(const state::WorldDescription& world, const StepDescription& first, BodyId id) {
+  const state::BodyOverride* change = override_of(first, id);
+  const bool falls = world.bodies[id.index()].use_gravity;
+  return (change == nullptr ? falls : change->use_gravity.value_or(falls)) && !world.gravity_W.isZero();
 }
 
 /// Whether only an agent could hold the body as this step begins an activity. A body that collides may lie on something.
@@ -80,7 +83,7 @@ std::string until_when(const state::WorldDescription& world, ActivityId activity
 
 void check_fall(Compilation& c, ActivityId activity, StepId first, BodyId body) {
   const StepDescription& step = c.world.steps[first.index()];
-  if (!has_weight(c.world, c.world.bodies[body.index()]) || !is_loose(c.world, step, body)) return;
+  if (!has_weight(c.world, step, body) || !is_loose(c.world, step, body)) return;
   AgentId missing;
   for (std::size_t i = 0; i < c.world.agents.size(); ++i) {
     const AgentId agent(i);
@@ -106,11 +109,11 @@ void check_falls(Compilation& c) {
 }
 
 /// Whether a push sends a body out of the exhibit: it has no weight, and its damping stops it too late.
-bool glides_away(const state::WorldDescription& world, const state::BodyDescription& body) {
+bool glides_away(const state::WorldDescription& world, const StepDescription& first, BodyId id) {
   constexpr double kPush_m_per_s = 0.5, kRoom_m = 5;
-  if (has_weight(world, body)) return false;
+  if (has_weight(world, first, id)) return false;
   // Damping leaves v (1 - damping)^t, so the way to rest is v / -ln(1 - damping).
-  const double slowing_per_s = -std::log1p(-body.linear_damping);
+  const double slowing_per_s = -std::log1p(-world.bodies[id.index()].linear_damping);
   return kPush_m_per_s > kRoom_m * slowing_per_s;
 }
 
@@ -132,7 +135,7 @@ bool begins_in_place(const state::WorldDescription& world, const StepDescription
 /// A body that hands can push away for good, at its own line: the remedy is there.
 void check_drift(Compilation& c, BodyId id) {
   const state::BodyDescription& body = c.world.bodies[id.index()];
-  if (!c.touchable[id.index()] || !glides_away(c.world, body)) return;
+  if (!c.touchable[id.index()]) return;
   const auto is_held = [&](const StepDescription& first) {
     for (std::size_t i = 0; i < c.world.agents.size(); ++i) {
       const state::ComponentDescription& agent = c.world.agents[i];
@@ -145,7 +148,7 @@ void check_drift(Compilation& c, BodyId id) {
   for (const state::ActivityDescription& activity : c.world.activities) {
     if (!activity.first) continue;
     const StepDescription& first = c.world.steps[activity.first.index()];
-    if (!is_loose(c.world, first, id) || is_held(first)) continue;
+    if (!glides_away(c.world, first, id) || !is_loose(c.world, first, id) || is_held(first)) continue;
     return c.problems.warning(
         ErrorCode::conflict, c.body_lines[id.index()], "RigidBody " + body.name,
         fmt::format("the body '{}' drifts away once a hand pushes it: it has no weight and next to no damping, and "

@@ -27,6 +27,24 @@ constexpr Key kQuantityKeys[] = {
      .required = true,
      .names = Names::source},
     {.name = "unit", .summary = "as a visitor reads it; rpm and deg convert", .example = "\"l\""},
+    {.name = "least",
+     .kind = number,
+     .summary = "where its gauge begins, in its unit",
+     .example = "0",
+     .min = -1e9,
+     .max = 1e9},
+    {.name = "greatest",
+     .kind = number,
+     .summary = "where its gauge ends; left out: the gauge begins at 0 and grows",
+     .example = "20",
+     .min = -1e9,
+     .max = 1e9},
+    {.name = "text",
+     .kind = set,
+     .summary =
+         "label.LANGUAGE: what its gauge is called. Displays show quantities with a label; of those without, the "
+         "first in l, l/min, rpm, N, degC and km, where no other in that unit has a label",
+     .inner = &kText},
 };
 constexpr Table kQuantity{"quantity", "a number with a name", kQuantityKeys};
 
@@ -34,6 +52,10 @@ constexpr Key kOverrideKeys[] = {
     {.name = "movable", .kind = boolean, .summary = "false: held still", .default_text = "as it was"},
     {.name = "visible", .kind = boolean, .summary = "false: not drawn", .default_text = "as it was"},
     {.name = "graspable", .kind = boolean, .summary = "a hand may take it", .default_text = "as it was"},
+    {.name = "useGlobalGravity",
+     .kind = boolean,
+     .summary = "true: it has its weight; false: it floats, as if balanced",
+     .default_text = "as it was"},
     {.name = "position",
      .kind = vector,
      .unit = "m",

@@ -55,6 +55,10 @@ class StateWalk {
     if (version_ == StateVersion::with_builds) return;
     for (auto& governor : state_.governors)
       archive_.bytes(governor.lifted_j);
+    if (version_ < StateVersion::with_gravity) return;
+    // Of other bodies the description says it, so that a world in which no step changes it has the bytes that it had before.
+    for (const BodyId body : state_.weighed)
+      archive_.bytes(state_[body].use_gravity);
   }
 
  private:

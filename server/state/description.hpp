@@ -108,12 +108,25 @@ struct ComponentDescription {
   }
 };
 
+/// Where a quantity's gauge begins and ends, in the quantity's unit: least < greatest.
+struct GaugeRange {
+  double least = 0;
+  double greatest = 1;
+};
+
 struct QuantityDescription {
   std::string name;  ///< what rules and displays call it
   std::string
       source;        ///< "HINGE.angle", "HINGE.rate", "SNAP.placed", "PUMP.basin_l", "GRASP.active", "CRANK.position.y"
   std::string unit;  ///< SI or a unit that a visitor reads: "l", "rpm"
+  Texts label{};     ///< what visitors call it; empty: displays name it by its unit
+  std::optional<GaugeRange> range{};  ///< none: the gauge begins at 0 and grows
 };
+
+/// The units of quantities that displays show without a label of the author's, separated by blanks.
+[[nodiscard]] constexpr std::string_view gauge_units() {
+  return "l rpm l/min N degC km";
+}
 
 enum class Comparison { less, equal, greater };
 
@@ -143,6 +156,7 @@ struct BodyOverride {
   std::optional<bool> visible;
   std::optional<bool> graspable;
   std::optional<Pose> X_WB;  ///< where the step puts it when it begins, at rest
+  std::optional<bool> use_gravity{};
 };
 
 struct StepDescription {

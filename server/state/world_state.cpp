@@ -18,6 +18,7 @@ WorldState::WorldState(const WorldDescription& description)
     bodies[i].movable = !from.fixed && !from.driven;
     bodies[i].visible = from.visible;
     bodies[i].graspable = from.graspable;
+    bodies[i].use_gravity = from.use_gravity;
     bodies[i].haptic = from.haptic;
   }
   for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -25,6 +26,11 @@ WorldState::WorldState(const WorldDescription& description)
     joints[i].enabled = from.enabled_at_start;
     joints[i].min_position = from.min_position;
     joints[i].max_position = from.max_position;
+  }
+  for (const StepDescription& step : description.steps) {
+    for (const BodyOverride& change : step.bodies)
+      if (change.use_gravity && std::ranges::find(weighed, change.body) == weighed.end())
+        weighed.push_back(change.body);
   }
 }
 

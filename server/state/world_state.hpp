@@ -25,6 +25,7 @@ struct BodyState {
   bool movable = true;  ///< false: held still by the step (dynamics gives it infinite mass)
   bool visible = true;
   bool graspable = false;
+  bool use_gravity = true;
   HapticMaterial
       haptic;  ///< what hands feel in this tick: the body's own, or what an agent sets. `run_agents` writes it.
   Wrench
@@ -133,6 +134,8 @@ struct WorldState {
 
   std::uint64_t tick = 0;
   std::vector<BodyState> bodies;
+  std::vector<BodyId>
+      weighed;  ///< bodies whose gravity steps change, each once: of the others `use_gravity` never changes
   std::vector<JointState> joints;
   std::vector<double> quantities;           ///< by QuantityId; written by `update_quantities` in agents
   std::vector<std::uint8_t> agent_enabled;  ///< by AgentId
@@ -199,8 +202,9 @@ enum class StateVersion : std::uint32_t {
   with_builds = 16,       ///< hands are right or left, and their fingers have lengths of their own
   with_corners = 32,  ///< thin walls hold palms, corners of them hold by both; carried things have their whole weight
   with_direct_joints = 64,  ///< joints, couplings and grips are solved directly, no longer by sweeps alone
+  with_gravity = 128,       ///< steps switch the gravity of bodies; where none does, the bytes are those of before
 };
-inline constexpr StateVersion kStateVersion = StateVersion::with_direct_joints;
+inline constexpr StateVersion kStateVersion = StateVersion::with_gravity;
 /// The first whose bodies move as today's to the bit. Older journals replay closely, but their hashes cannot be compared.
 inline constexpr StateVersion kSameMotion = StateVersion::with_direct_joints;
 [[nodiscard]] constexpr bool is_known(StateVersion version) noexcept {

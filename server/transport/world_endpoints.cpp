@@ -53,6 +53,19 @@ std::vector<proto::WireQuantityGoal> goals_of(const state::StepDescription* step
   return goals;
 }
 
+proto::WireQuantity wire_quantity(const state::QuantityDescription& quantity, std::vector<proto::WireText>& label) {
+  proto::WireQuantity wire{};
+  wire.name = proto::look_into(quantity.name);
+  wire.unit = proto::look_into(quantity.unit);
+  proto::look_into(wire.label, label);
+  wire.ranged = quantity.range.has_value();
+  if (quantity.range) {
+    wire.least = quantity.range->least;
+    wire.greatest = quantity.range->greatest;
+  }
+  return wire;
+}
+
 bool same_progress(const SceneSnapshot& a, const SceneSnapshot& b) {
   const state::Progress& p = a.progress;
   const state::Progress& q = b.progress;
@@ -313,9 +326,12 @@ void WorldEndpoints::write_status(const SceneSnapshot& snapshot) {
   std::vector<char*> activities;
   for (const auto& a : world.activities)
     activities.push_back(proto::look_into(a.name));
-  std::vector<proto::WireQuantity> quantities;
+  std::vector<std::vector<proto::WireText>> labels;
   for (const auto& q : world.quantities)
-    quantities.push_back({proto::look_into(q.name), proto::look_into(q.unit)});
+    labels.push_back(wire_texts(q.label));
+  std::vector<proto::WireQuantity> quantities;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    quantities.push_back(wire_quantity(world.quantities[i], labels[i]));
   std::vector<proto::WireQuantityGoal> goals = goals_of(step);
   auto title = wire_texts(world.title);
   auto caption = wire_texts(texts_of(step, "caption"));

@@ -182,6 +182,11 @@ void fuzz_presentation(Bytes bytes) {
 void fuzz_status(Bytes bytes) {
   std::vector<proto::WireQuantity> quantities(bytes.take<std::uint8_t>() % 4);
   std::vector<proto::WireQuantityGoal> goals(bytes.take<std::uint8_t>() % 6);
+  for (auto& quantity : quantities) {
+    quantity.ranged = bytes.take<std::uint8_t>() % 2 == 1;
+    quantity.least = bytes.take<double>();
+    quantity.greatest = bytes.take<double>();
+  }
   for (auto& goal : goals) {
     goal.quantity = bytes.take<std::uint8_t>();
     goal.value = bytes.take<double>();
@@ -195,7 +200,8 @@ void fuzz_status(Bytes bytes) {
   if (!client::parse(wire, status)) return;
   must(status.quantities.size() == quantities.size() && goals.size() <= quantities.size());
   for (const auto& quantity : status.quantities)
-    must(!quantity.goal || std::isfinite(quantity.goal->value));
+    must((!quantity.goal || std::isfinite(quantity.goal->value)) &&
+         (!quantity.range || quantity.range->least < quantity.range->greatest));
 }
 
 /// A scenario with one question of each kind, and the argument of a command.

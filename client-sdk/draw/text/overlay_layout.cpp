@@ -87,20 +87,46 @@ Box add_caption(Page& page, const picture::OverlayContent& content, const Box& r
   return box;
 }
 
-/// A narrow picture has no room for labels beside the machine: the unit alone must explain the number.
+/// A narrow picture has no room for labels beside the machine: the unit alone must explain the number, unless the author has named it.
 struct ReadoutSizes {
-  bool narrow;
+  bool narrow, labelled;
   float padding, width, row, label, number;
 };
 
-ReadoutSizes readout_sizes(const Page& page) {
+/// The values of the whole bar.
+std::string range_of(const picture::Readout& readout) {
+  return readout.begin + (readout.begin.starts_with('-') ? " … " : "–") + readout.end;
+}
+
+/// What a label and the range beside it need at least.
+float label_width(const Page& page, const picture::Readout& readout) {
+  return page.measure(Face::regular, 15, readout.label) + page.tx(12) +
+         page.measure(Face::regular, 13, range_of(readout));
+}
+
+ReadoutSizes readout_sizes(const Page& page, const std::vector<picture::Readout>& readouts) {
   const bool narrow = page.width < page.px(900);
-  return {narrow,
-          page.tx(narrow ? 14 : 18),
-          page.tx(224),
-          page.tx(narrow ? 56 : 92),
-          page.tx(narrow ? 0 : 21),
-          narrow ? 28.F : 34.F};
+  const bool labelled = !narrow || std::ranges::any_of(readouts, &picture::Readout::named);
+  ReadoutSizes s{narrow,
+                 labelled,
+                 page.tx(narrow ? 14 : 18),
+                 page.tx(224),
+                 page.tx(narrow ? 56 : 92),
+                 page.tx(labelled ? 21 : 0),
+                 narrow ? 28.F : 34.F};
+  if (narrow) s.row += s.label;
+  // The author's words may need more room; beyond that they are cut.
+  for (const picture::Readout& readout : readouts) {
+    if (readout.named) s.width = std::max(s.width, std::min(label_width(page, readout) + 2 * s.padding, page.tx(330)));
+  }
+  return s;
+}
+
+/// The beginning of a text that fits, with a sign that it goes on.
+std::string cut_to(const Page& page, const std::string& text, float width) {
+  if (page.measure(Face::regular, 15, text) <= width) return text;
+  const auto lines = page.lines(Face::regular, 15, text, width - page.measure(Face::regular, 15, " …"));
+  return lines.empty() ? std::string() : lines.front() + " …";
 }
 
 /// A mark across the bar.
@@ -116,11 +142,12 @@ void add_readout(Page& page, const picture::Readout& readout, const ReadoutSizes
   const Palette& c = page.colours;
   const float right = x + s.width - 2 * s.padding;
   const float baseline = y + s.label + page.tx(s.narrow ? 24 : 30);
-  if (!s.narrow) {
-    page.add_text(x, y + page.tx(13), Face::regular, 15, c.quiet, readout.label);
-    // The value of the whole bar.
-    const std::string range = "0–" + readout.end;
-    page.add_text(right - page.measure(Face::regular, 13, range), y + page.tx(13), Face::regular, 13, c.quiet, range);
+  if (s.labelled) {
+    const std::string range = range_of(readout);
+    const float range_x = right - page.measure(Face::regular, 13, range);
+    page.add_text(x, y + page.tx(13), Face::regular, 15, c.quiet,
+                  cut_to(page, readout.label, range_x - page.tx(12) - x));
+    page.add_text(range_x, y + page.tx(13), Face::regular, 13, c.quiet, range);
   }
   page.add_text(x, baseline, Face::bold, s.number, c.paper, readout.value);
   const float value_width = page.measure(Face::bold, s.number, readout.value);
@@ -136,7 +163,7 @@ void add_readout(Page& page, const picture::Readout& readout, const ReadoutSizes
 
 /// Adds as many readouts as fit above `below`, in their order.
 Box add_readouts(Page& page, const picture::OverlayContent& content, const std::vector<Box>& others) {
-  const ReadoutSizes s = readout_sizes(page);
+  const ReadoutSizes s = readout_sizes(page, content.readouts);
   Box box{page.width - page.margin() - s.width, page.margin(), s.width, 0};
   float below = page.height - page.margin();
   for (const Box& other : others)
@@ -331,7 +358,7 @@ void lay_out_pose(Page& page, const picture::OverlayPose& pose, const Box& corne
 void lay_out_captions(Page& page, const picture::OverlayContent& content, const Box& corner, const Box& inset) {
   const float gap = page.gap();
   const float margin = page.margin();
-  const ReadoutSizes readout = readout_sizes(page);
+  const ReadoutSizes readout = readout_sizes(page, content.readouts);
   const float readouts = page.width - margin - (content.readouts.empty() ? 0 : readout.width + gap);
   // At the top, a note in the middle and a notice over the caption, if it needs few lines; otherwise above the caption.
   const float middle = page.width / 2;

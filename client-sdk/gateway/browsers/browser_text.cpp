@@ -50,7 +50,8 @@ std::string_view word_of(picture::OverlayNotice::Sign sign) {
 }
 
 TextJson quantity_json(const client::QuantityInfo& quantity) {
-  TextJson out{{"name", quantity.name}, {"unit", quantity.unit}};
+  TextJson out{{"name", quantity.name}, {"unit", quantity.unit}, {"label", texts_json(quantity.label)}};
+  if (quantity.range) out["range"] = {{"least", quantity.range->least}, {"greatest", quantity.range->greatest}};
   if (quantity.goal) out["goal"] = {{"value", quantity.goal->value}, {"fromAbove", quantity.goal->from_above}};
   return out;
 }
@@ -110,11 +111,8 @@ TextJson pose_panel_json(const picture::OverlayPose& pose) {
 TextJson gauges_json(const std::vector<picture::Readout>& readouts) {
   TextJson out = TextJson::array();
   for (const picture::Readout& readout : readouts) {
-    TextJson gauge{{"label", readout.label},
-                   {"value", readout.value},
-                   {"unit", readout.unit},
-                   {"fraction", readout.fraction},
-                   {"end", readout.end}};
+    TextJson gauge{{"label", readout.label},       {"value", readout.value}, {"unit", readout.unit},
+                   {"fraction", readout.fraction}, {"begin", readout.begin}, {"end", readout.end}};
     if (readout.goal) gauge["goal"] = *readout.goal;
     out.push_back(std::move(gauge));
   }

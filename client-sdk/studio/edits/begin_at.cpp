@@ -62,6 +62,7 @@ Left left_by(const WorldDescription& world, const std::vector<StepId>& way) {
       if (change.movable) body.movable = change.movable;
       if (change.visible) body.visible = change.visible;
       if (change.graspable) body.graspable = change.graspable;
+      if (change.use_gravity) body.use_gravity = change.use_gravity;
       if (change.X_WB) body.X_WB = change.X_WB;
     }
   }
@@ -82,6 +83,7 @@ void write_left(const Left& left, const std::string& step, std::vector<Command>&
     if (body.movable) write("movable", *body.movable);
     if (body.visible) write("visible", *body.visible);
     if (body.graspable) write("graspable", *body.graspable);
+    if (body.use_gravity) write("useGlobalGravity", *body.use_gravity);
     if (!body.X_WB) continue;
     const Eigen::AngleAxisd turn(body.X_WB->R);
     write("position", std::vector{body.X_WB->p.x(), body.X_WB->p.y(), body.X_WB->p.z()});

@@ -225,7 +225,10 @@ class StillnessOf {
     const bool on_joint = std::ranges::any_of(world_.joints, [this](const state::JointDescription& joint) {
       return joint.body1 == id_ || joint.body2 == id_;
     });
-    if (on_joint || !body_.use_gravity) return;
+    bool by_step = false;
+    const auto weighs = known(
+        body_.use_gravity, [](const state::BodyOverride& o) { return o.use_gravity; }, by_step);
+    if (on_joint || !weighs.value_or(false)) return;
     double most_n = 0;
     for (const ComponentDescription* grasp : grasps) {
       const auto* limit = grasp->written<std::vector<double>>("forceLimit");

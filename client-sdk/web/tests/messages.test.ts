@@ -48,6 +48,11 @@ describe('the state', () => {
     expect(overlay!.gauges.map((g) => [g.fraction, g.goal])).toEqual([[1, 0], [0.5, null]]);
   });
 
+  it('takes a gauge of an older gateway as one that begins at 0', () => {
+    const { overlay } = after({ type: 'overlay', gauges: [{ label: 'a', begin: '-5', end: '20' }, { label: 'a', end: '20' }] });
+    expect(overlay!.gauges.map((g) => [g.begin, g.end])).toEqual([['-5', '20'], ['0', '20']]);
+  });
+
   it('is not changed by a message of a newer gateway', () => {
     expect(after({ type: 'hologram', x: 1 })).toEqual(kNothingKnown);
   });

@@ -13,7 +13,7 @@ namespace mechane::proto {
 
 /// Version of idl/mechane.idl. Raise it when a message has another field, a field another meaning, or CommandKind another kind. A new
 /// topic needs no new version: programs that do not know it do not subscribe to it. Receivers drop samples of another version.
-inline constexpr std::uint32_t kProtocol = 10;
+inline constexpr std::uint32_t kProtocol = 11;
 
 using HapticInput = ::mechane_HapticInput;
 using HapticOutput = ::mechane_HapticOutput;

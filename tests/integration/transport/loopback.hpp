@@ -102,7 +102,8 @@ class LoopbackDomain {
   spilt.value = 40;
   step.triggers = {full, spilt};
   world->steps.push_back(step);
-  world->quantities.push_back({"water", "PUMP.basin_l", "l"});
+  world->quantities.push_back(
+      {"water", "PUMP.basin_l", "l", {{"en", "Water in the basin"}}, state::GaugeRange{-5, 40}});
   return world;
 }
 

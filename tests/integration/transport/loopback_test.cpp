@@ -71,6 +71,10 @@ TEST_F(Loopback, AWatcherLearnsManifestStatusFramesAndCommandsAreAnswered) {
   ASSERT_TRUE(quantities[0].goal) << "what the step's first trigger says first";
   EXPECT_EQ(quantities[0].goal->value, 15);
   EXPECT_FALSE(quantities[0].goal->from_above);
+  EXPECT_EQ(quantities[0].label, (client::Texts{{"en", "Water in the basin"}}));
+  ASSERT_TRUE(quantities[0].range);
+  EXPECT_EQ(quantities[0].range->least, -5);
+  EXPECT_EQ(quantities[0].range->greatest, 40);
   EXPECT_TRUE(eventually([&] { return watcher->server_status() && watcher->server_status()->version == "1.2.3"; }));
 
   client::Frame frame;

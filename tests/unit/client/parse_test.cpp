@@ -179,5 +179,26 @@ TEST(ParseForce, RefusesAnotherProtocol) {
   EXPECT_FALSE(parse(wire, force));
 }
 
+TEST(ParseStatus, a_gauge_goes_up_and_has_two_ends) {
+  const auto takes = [](double least, double greatest, bool ranged = true) {
+    std::vector<proto::WireQuantity> quantities(1);
+    quantities[0].ranged = ranged;
+    quantities[0].least = least;
+    quantities[0].greatest = greatest;
+    proto::WorldStatus wire{};
+    wire.protocol = proto::kProtocol;
+    proto::look_into(wire.quantities, quantities);
+    WorldStatus status;
+    return parse(wire, status) && status.quantities[0].range.has_value() == ranged;
+  };
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(takes(-5, 20));
+  EXPECT_TRUE(takes(kNone, kNone, false)) << "without a range they mean nothing";
+  for (const auto& [least, greatest] :
+       {std::pair{20.0, -5.0}, {1.0, 1.0}, {kNone, 1.0}, {0.0, kNone}, {0.0, kInfinity}, {-kInfinity, 0.0}})
+    EXPECT_FALSE(takes(least, greatest)) << least << " " << greatest;
+}
+
 }  // namespace
 }  // namespace mechane::client

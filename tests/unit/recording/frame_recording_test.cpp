@@ -105,6 +105,38 @@ TEST(FrameRecording, what_it_holds_is_what_was_heard) {
   EXPECT_EQ(encode(status), encode(status_of_visit("w", "s")));
 }
 
+/// Without what recordings of version 3 do not have, which is then so many bytes.
+client::WorldStatus without_gauges(client::WorldStatus status) {
+  for (client::QuantityInfo& quantity : status.quantities) {
+    quantity.label.clear();
+    quantity.range.reset();
+  }
+  return status;
+}
+constexpr std::size_t kNoGauges = 2 * 2;
+
+TEST(FrameRecording, of_a_former_version_is_read_without_labels_and_ranges) {
+  client::WorldStatus status;
+  ASSERT_TRUE(decode(encode(status_of_visit("w", "s")), status));
+  EXPECT_EQ(status.quantities[1].label.at("en"), "Water that runs");
+  ASSERT_TRUE(status.quantities[1].range);
+  EXPECT_EQ(status.quantities[1].range->least, -2);
+  EXPECT_EQ(status.quantities[1].range->greatest, 5);
+  EXPECT_FALSE(status.quantities[0].range);
+  std::vector<std::byte> former = encode(without_gauges(status));
+  former.resize(former.size() - kNoGauges);
+  ASSERT_TRUE(decode(former, status));
+  ASSERT_TRUE(status.quantities[0].goal) << "version 3 has goals";
+  EXPECT_TRUE(status.quantities[1].label.empty());
+  EXPECT_FALSE(status.quantities[1].range);
+}
+
+TEST(FrameRecording, with_a_reversed_range_is_damaged) {
+  client::WorldStatus status = status_of_visit("w", "s");
+  status.quantities[1].range = {5, 5};
+  EXPECT_FALSE(decode(encode(status), status));
+}
+
 TEST(FrameRecording, of_a_former_version_is_read_without_goals) {
   client::WorldStatus status;
   ASSERT_TRUE(decode(encode(status_of_visit("w", "s")), status));
@@ -112,10 +144,10 @@ TEST(FrameRecording, of_a_former_version_is_read_without_goals) {
   EXPECT_EQ(status.quantities[0].goal->value, 1.5);
   EXPECT_TRUE(status.quantities[0].goal->from_above);
   EXPECT_FALSE(status.quantities[1].goal);
-  client::WorldStatus without = status;
+  client::WorldStatus without = without_gauges(status);
   without.quantities[0].goal.reset();
   std::vector<std::byte> former = encode(without);
-  former.resize(former.size() - 2);  // that a quantity has none is a byte
+  former.resize(former.size() - kNoGauges - 2);  // that a quantity has none is a byte
   ASSERT_TRUE(decode(former, status));
   EXPECT_EQ(status.quantities[1].name, "flow");
   EXPECT_FALSE(status.quantities[0].goal);

@@ -21,6 +21,8 @@ inline client::WorldStatus status_of_visit(const std::string& world, const std::
   status.steps_total = 3;
   status.quantities = {{"level", "m"}, {"flow", "l/s"}};
   status.quantities[0].goal = {1.5, true};
+  status.quantities[1].label = {{"en", "Water that runs"}};
+  status.quantities[1].range = {-2, 5};
   status.title = {{"el", "Το πηγάδι"}, {"en", "The well"}};
   status.activities = {"use"};
   return status;

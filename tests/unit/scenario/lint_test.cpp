@@ -32,6 +32,18 @@ TEST(Lint, ABodyThatFallsUntilALaterStepHoldsItIsNamed) {
   expect_nothing(with_edits({kHeavy, kAxleLater}));
 }
 
+TEST(Lint, ABodyFallsWhereItsFirstStepGivesItWeightAndNotWhereItTakesIt) {
+  const std::string held =
+      "value='\"HOLD\" \"COUNTER\"'/>\n                <MetadataSet containerField='value' name='object:INNER'>";
+  const auto weight = [&](const std::string& value) {
+    return std::pair(held,
+                     held + "<MetadataBoolean containerField='value' name='useGlobalGravity' value='" + value + "'/>");
+  };
+  expect_one_warning(with_edits({kAxleLater, kAxleInTurn, weight("true")}), "name='grasp'>", ErrorCode::conflict,
+                     "'INNER'");
+  expect_nothing(with_edits({kHeavy, kAxleLater, kAxleInTurn, weight("false")}));
+}
+
 TEST(Lint, ABodyThatAnAgentOfAnotherActivityAloneHoldsFallsToo) {
   // Without its snap nothing holds the screw while it is put together.
   const std::string text = with_edits({kHeavy,

@@ -84,6 +84,29 @@ TEST(Steps, SoundsAreNamedByLanguage) {
   EXPECT_EQ(fill_of(outcome).texts.at("audio").at("en"), "audio/fill.en.ogg");
 }
 
+std::string yes_no(const std::string& name, bool value) {
+  return "<MetadataBoolean containerField='value' name='" + name + "' value='" + (value ? "true" : "false") + "'/>\n";
+}
+
+TEST(Steps, AStepGivesABodyItsWeight) {
+  const Outcome outcome = with_fill(set_key("object:INNER", yes_no("useGlobalGravity", true)));
+  ASSERT_TRUE(outcome.world) << outcome.world.error().to_string();
+  ASSERT_EQ(fill_of(outcome).bodies.size(), 1u);
+  EXPECT_EQ(fill_of(outcome).bodies[0].use_gravity, std::optional(true));
+  EXPECT_FALSE(fill_of(outcome).bodies[0].movable) << "the rest is as it was";
+  EXPECT_FALSE(fill_of(with_fill(set_key("object:INNER", yes_no("movable", true)))).bodies[0].use_gravity);
+}
+
+TEST(Steps, WeightForWhatCannotFallIsToldToItsAuthor) {
+  const Outcome fixed = with_fill(set_key("object:OUTER", yes_no("useGlobalGravity", true)));
+  EXPECT_EQ(fixed.find(ErrorCode::conflict, kAnyLine, "cannot fall").severity, x3d::Severity::error);
+  EXPECT_TRUE(with_fill(set_key("object:OUTER", yes_no("useGlobalGravity", false))).world) << "it does not anyway";
+  const std::string text = with_edits({{kFill, kFill + set_key("object:INNER", yes_no("useGlobalGravity", true))},
+                                       {"gravity='0 -9.81 0'", "gravity='0 0 0'"}});
+  EXPECT_EQ(compile_text(text).find(ErrorCode::conflict, line_of(text, "useGlobalGravity' value"), "0 0 0").severity,
+            x3d::Severity::warning);
+}
+
 /// The shipped file, with more questions before those of 'use'.
 Outcome with_questions(const std::string& more) {
   const std::string first = "<MetadataSet containerField='value' name='lifts'>\n";

@@ -62,7 +62,8 @@ void expect_same(const state::WorldState& trial, const state::WorldState& visit,
   ASSERT_EQ(trial.bodies.size(), visit.bodies.size());
   for (std::size_t i = 0; i < trial.bodies.size(); ++i) {
     const state::BodyState &a = trial.bodies[i], &b = visit.bodies[i];
-    EXPECT_EQ(std::tuple(a.movable, a.visible, a.graspable), std::tuple(b.movable, b.visible, b.graspable))
+    EXPECT_EQ(std::tuple(a.movable, a.visible, a.graspable, a.use_gravity),
+              std::tuple(b.movable, b.visible, b.graspable, b.use_gravity))
         << where << i;
     EXPECT_LT((a.X_WB.p - b.X_WB.p).norm(), 1e-9) << where << i;
     EXPECT_LT(a.X_WB.R.angularDistance(b.X_WB.R), 1e-6) << where << i;

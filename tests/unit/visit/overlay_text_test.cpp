@@ -1,8 +1,11 @@
 #include "client-sdk/visit/overlay_text.hpp"
 
 #include <limits>
+#include <sstream>
 
 #include <gtest/gtest.h>
+
+#include "server/state/description.hpp"
 
 namespace mechane::visit {
 namespace {
@@ -63,6 +66,94 @@ TEST(OverlayText, a_gauge_has_room_for_what_the_step_waits_for_and_marks_it) {
   EXPECT_EQ(stopping.readouts[1].end, "200");
   status.done = true;
   EXPECT_FALSE(writer.write(status, &frame).readouts[1].goal) << "what is done waits for nothing";
+}
+
+TEST(OverlayText, a_quantity_with_a_label_is_shown_whatever_its_unit_and_alone_in_it) {
+  client::WorldStatus status;
+  status.quantities = {{"basin", "l"}, {"left", "l"},    {"right", "l"},
+                       {"coins", ""},  {"angle", "deg"}, {"turns", "turns"}};
+  status.quantities[1].label = {{"el", "Αριστερός κύλινδρος"}, {"en", "Left cylinder"}};
+  status.quantities[2].label = {{"en", "Right cylinder"}};
+  status.quantities[3].label = {{"en", "Coins"}};
+  status.quantities[5].label = {{"en", "Crank"}};
+  client::Frame frame;
+  frame.quantities = {1, 2.25, 3, 7, 30, 2.5};
+  const std::vector<picture::Readout> readouts = OverlayWriter("el").write(status, &frame).readouts;
+  ASSERT_EQ(readouts.size(), 4U) << "neither the litres without a label, nor the degrees";
+  EXPECT_EQ(readouts[0].label, "Αριστερός κύλινδρος");
+  EXPECT_EQ(readouts[0].value, "2,2");
+  EXPECT_EQ(readouts[0].unit, "λίτρα");
+  EXPECT_TRUE(readouts[0].named);
+  EXPECT_EQ(readouts[1].label, "Right cylinder") << "not yet translated";
+  EXPECT_EQ(readouts[2].value, "7") << "what has no unit is counted";
+  EXPECT_EQ(readouts[2].unit, "");
+  EXPECT_EQ(readouts[3].value + " " + readouts[3].unit, "2,5 στροφές");
+}
+
+TEST(OverlayText, a_gauge_with_a_range_stays_as_its_author_made_it) {
+  client::WorldStatus status;
+  status.quantities = {{"warmth", "degC"}};
+  status.quantities[0].range = {-10, 30};
+  status.quantities[0].goal = {25, false};
+  client::Frame frame;
+  OverlayWriter writer("en");
+  for (const auto& [value, fraction] : {std::pair{-10.0, 0.0}, {-30.0, 0.0}, {0.0, 0.25}, {20.0, 0.75}, {900.0, 1.0}}) {
+    frame.quantities = {value};
+    const picture::Readout readout = writer.write(status, &frame).readouts.at(0);
+    EXPECT_EQ(readout.begin + " to " + readout.end, "-10 to 30");
+    EXPECT_DOUBLE_EQ(readout.fraction, fraction) << value;
+    EXPECT_DOUBLE_EQ(readout.goal.value(), 0.875);
+  }
+  frame.quantities = {-7};
+  EXPECT_EQ(writer.write(status, &frame).readouts.at(0).value, "-7");
+}
+
+TEST(OverlayText, a_short_range_has_as_many_decimals_as_its_hundredths_need) {
+  client::WorldStatus status;
+  status.quantities = {{"depth", "m"}, {"coins", ""}, {"basin", "l"}};
+  for (client::QuantityInfo& quantity : status.quantities)
+    quantity.label = {{"en", quantity.name}};
+  status.quantities[0].range = {0.25, 1.5};
+  status.quantities[1].range = {0, 5};
+  client::Frame frame;
+  frame.quantities = {0.5, 3, 12};
+  const std::vector<picture::Readout> readouts = OverlayWriter("el").write(status, &frame).readouts;
+  ASSERT_EQ(readouts.size(), 3U);
+  EXPECT_EQ(readouts[0].value, "0,50");
+  EXPECT_EQ(readouts[0].begin, "0,25");
+  EXPECT_EQ(readouts[0].end, "1,5");
+  EXPECT_DOUBLE_EQ(readouts[0].fraction, 0.2);
+  EXPECT_EQ(readouts[1].value, "3");
+  EXPECT_EQ(readouts[2].begin + " " + readouts[2].end, "0 20") << "without a range it grows as ever";
+}
+
+TEST(OverlayText, a_speed_has_a_sign_where_its_gauge_begins_below_0) {
+  client::WorldStatus status;
+  status.quantities = {{"speed", "rpm"}};
+  status.quantities[0].range = {0, 100};
+  status.quantities[0].goal = {-50, true};
+  client::Frame frame;
+  frame.quantities = {-25};
+  const picture::Readout plain = OverlayWriter("en").write(status, &frame).readouts.at(0);
+  EXPECT_EQ(plain.value, "25");
+  EXPECT_DOUBLE_EQ(plain.fraction, 0.25);
+  EXPECT_DOUBLE_EQ(plain.goal.value(), 0.5);
+  status.quantities[0].range = {-100, 100};
+  const picture::Readout both_ways = OverlayWriter("en").write(status, &frame).readouts.at(0);
+  EXPECT_EQ(both_ways.value, "-25");
+  EXPECT_DOUBLE_EQ(both_ways.fraction, 0.375);
+  EXPECT_DOUBLE_EQ(both_ways.goal.value(), 0.25);
+}
+
+TEST(OverlayText, each_unit_that_authors_are_promised_has_a_gauge_without_a_label) {
+  std::istringstream units{std::string(state::gauge_units())};
+  for (std::string unit; units >> unit;) {
+    client::WorldStatus status;
+    status.quantities = {{"something", unit}};
+    client::Frame frame;
+    frame.quantities = {1};
+    EXPECT_EQ(OverlayWriter("en").write(status, &frame).readouts.size(), 1U) << unit;
+  }
 }
 
 TEST(OverlayText, numbers_that_are_none_are_left_out) {

@@ -75,6 +75,7 @@ export interface Gauge {
   value: string;
   unit: string;
   fraction: number;
+  begin: string;
   end: string;
   goal?: number | null;
 }
@@ -300,6 +301,7 @@ function gaugeOf(v: unknown): Gauge {
     value: text(g.value),
     unit: text(g.unit),
     fraction: Math.min(Math.max(number(g.fraction), 0), 1),
+    begin: text(g.begin) || '0',
     end: text(g.end),
     goal: typeof g.goal === 'number' ? Math.min(Math.max(number(g.goal), 0), 1) : null,
   };

@@ -42,7 +42,7 @@ const overlay = (more) => ({
   type: 'overlay', language: 'en', languages: ['el', 'en'], title: 'The crane', caption: 'Turn the crank', subtitle: '', hint: '',
   note: '', goal: '',
   notice: null, steps: { done: 1, total: 3 },
-  gauges: [{ label: 'Speed', value: '24', unit: 'turns/min', fraction: 0.4, end: '60', goal: 0.8 }],
+  gauges: [{ label: 'Speed', value: '24', unit: 'turns/min', fraction: 0.4, begin: '0', end: '60', goal: 0.8 }],
   buttons: [{ action: 'home', text: 'To the village' }], panel: null, pose: null, largeText: false, highContrast: false, ...more,
 });
 

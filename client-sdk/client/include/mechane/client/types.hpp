@@ -147,9 +147,16 @@ struct QuantityInfo {
     double value = 0;
     bool from_above = false;  ///< true: the quantity must fall below the value; false: rise above it
   };
+  /// Where its gauge begins and ends: least < greatest.
+  struct Range {
+    double least = 0;
+    double greatest = 1;
+  };
   std::string name;
   std::string unit;
   std::optional<Goal> goal{};
+  Texts label{};                 ///< its name for visitors; empty: its unit says what it is
+  std::optional<Range> range{};  ///< none: its gauge begins at 0 and grows
 };
 
 /// The state of a world and its visit.
