@@ -21,7 +21,7 @@ bool same_switches(const StepDescription& a, const StepDescription& b) {
   const auto same = [](const state::BodyOverride& x, const state::BodyOverride& y) {
     const bool placed_alike = x.X_WB.has_value() == y.X_WB.has_value() && (!x.X_WB || same_pose(*x.X_WB, *y.X_WB));
     return x.body == y.body && x.movable == y.movable && x.visible == y.visible && x.graspable == y.graspable &&
-           placed_alike;
+           x.use_gravity == y.use_gravity && placed_alike;
   };
   return a.enable == b.enable && a.disable == b.disable && std::ranges::equal(a.bodies, b.bodies, same);
 }

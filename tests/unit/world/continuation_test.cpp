@@ -73,7 +73,7 @@ TEST(Continuation, WhatBeginsOtherwiseOrSwitchesOtherThingsIsNamed) {
   expect([](auto& world) { world.steps[0].name = "wind"; }, Kind::steps, "");
   expect([](auto& world) { world.activities[0].name = "play"; }, Kind::steps, "");
   expect([](auto& world) { world.steps[0].disable = {AgentId(1)}; }, Kind::steps, "turn");
-  expect([](auto& world) { world.steps[0].bodies = {{BodyId(1), false, {}, {}, {}}}; }, Kind::steps, "turn");
+  expect([](auto& world) { world.steps[0].bodies = {{BodyId(1), false, {}, {}, {}, {}}}; }, Kind::steps, "turn");
   expect([](auto& world) { world.joints[0].enabled_at_start = false; }, Kind::start, "");
   expect([](auto& world) { world.agents.pop_back(), world.quantities.pop_back(); }, Kind::start, "");
 }
