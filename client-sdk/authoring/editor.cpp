@@ -127,6 +127,8 @@ bool is_of(scenario::ValueKind kind, const state::Parameter& value, bool any_cou
   switch (kind) {
     case scenario::ValueKind::number:
       return any_count || count == 1;
+    case scenario::ValueKind::numbers:
+      return true;
     case scenario::ValueKind::vector:
       return count == 3;
     case scenario::ValueKind::rotation:

@@ -1,5 +1,7 @@
 #include "client-sdk/authoring/rename.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "client-sdk/authoring/key_scope.hpp"
@@ -62,10 +64,21 @@ std::string changed(const Map& map, const std::string& name) {
   return it == map.end() ? name : it->second;
 }
 
+/// Whether a RigidBody stands for many: COIN-1, COIN-2 ...
+bool has_copies(const x3d::Document& document, x3d::NodeId body) {
+  const x3d::NodeId set = x3d::find_set(document, body, "mechane:body");
+  return set && x3d::find_child(document, set, "copies");
+}
+
 class Renamer {
  public:
   Renamer(const x3d::Document& document, const Renames& renames, TextEdits& edits)
-      : document_(document), renames_(renames), edits_(edits) {}
+      : document_(document), renames_(renames), edits_(edits) {
+    for (const x3d::NodeId body : document.elements("RigidBody")) {
+      const std::string def = attribute_of(document[body], "DEF");
+      if (renames.things.contains(def) && has_copies(document, body)) copied_.insert(def);
+    }
+  }
 
   void run() {
     const std::vector<bool> inside = in_prototypes(document_);
@@ -121,6 +134,18 @@ class Renamer {
     }
   }
 
+  /// The new name of a name, or of a copy: COIN-3 and COIN-* follow COIN. None where it keeps its name.
+  [[nodiscard]] std::optional<std::string> new_name(const Map& map, const std::string& name) const {
+    if (const auto it = map.find(name); it != map.end()) return it->second;
+    const std::size_t dash = name.rfind('-');
+    if (&map != &renames_.things || dash == std::string::npos || !copied_.contains(name.substr(0, dash)))
+      return std::nullopt;
+    const std::string number = name.substr(dash + 1);
+    const bool is_copy =
+        number == "*" || (!number.empty() && number.find_first_not_of("0123456789") == std::string::npos);
+    return is_copy ? std::optional(map.at(name.substr(0, dash)) + name.substr(dash)) : std::nullopt;
+  }
+
   const Map* map_for(scenario::Names names) const {
     switch (names) {
       case scenario::Names::body:
@@ -171,8 +196,8 @@ class Renamer {
     if (key == nullptr || !key->name.ends_with(":*")) return;
     const Map* map = map_for(key->names);
     const std::size_t prefix = key->name.size() - 1;
-    if (map != nullptr && map->contains(name.substr(prefix)))
-      set_attribute(document_, id, "name", name.substr(0, prefix) + map->at(name.substr(prefix)), edits_);
+    const auto renamed = map != nullptr ? new_name(*map, name.substr(prefix)) : std::nullopt;
+    if (renamed) set_attribute(document_, id, "name", name.substr(0, prefix) + *renamed, edits_);
   }
 
   void rename_value(x3d::NodeId id, scenario::Names names) {
@@ -191,9 +216,9 @@ class Renamer {
       // A source, "PUMP.basin_l", is a name and one of its values.
       const std::size_t end = names == scenario::Names::source ? std::min(value.find('.'), value.size()) : value.size();
       const Map& of = names == scenario::Names::source ? renames_.things : *map;
-      const auto it = of.find(value.substr(0, end));
-      if (it == of.end()) continue;
-      value = it->second + value.substr(end);
+      const auto renamed = new_name(of, value.substr(0, end));
+      if (!renamed) continue;
+      value = *renamed + value.substr(end);
       any = true;
     }
     if (any) set_attribute(document_, id, "value", quote_strings(*values), edits_);
@@ -217,6 +242,7 @@ class Renamer {
   const Renames& renames_;
   TextEdits& edits_;
   std::set<std::size_t> done_;
+  std::set<std::string> copied_;  ///< RigidBodies that stand for many, and get a new name
 };
 
 Map new_names(const std::set<std::string>& ours, const std::set<std::string>& theirs) {

@@ -12,6 +12,7 @@
 
 #include "server/scenario/attributes.hpp"
 #include "server/scenario/compiler.hpp"
+#include "server/scenario/copies.hpp"
 #include "server/scenario/fields.hpp"
 #include "server/state/component_type.hpp"
 #include "server/state/description.hpp"
@@ -41,6 +42,7 @@ struct Compilation {
   std::optional<x3d::Metadata> scenario;            ///< the tree of the WorldInfo
   std::map<std::string, std::string> model_hashes;  ///< by url as written
   std::vector<int> body_lines;                      ///< by BodyId
+  std::map<std::string, std::size_t> copies;        ///< how many bodies a RigidBody stands for, by its DEF
   std::map<std::string, int> quantity_lines;        ///< by the quantity's name, of those written as sets
   std::vector<int> activity_lines;                  ///< by ActivityId
   std::vector<int> step_lines;                      ///< by StepId
@@ -115,6 +117,15 @@ void compile_all(Compilation& c);
 /// Reports that nothing has this name: "no body is called 'X'". The remedy names what is known; `if_none` where nothing is.
 void report_unknown(Compilation& c, const Place& at, std::string_view word, const std::string& name,
                     std::span<const std::string> known, const std::string& if_none);
+
+/// Where the copies of a RigidBody stand, itself the first; empty where it is one body. `body`: of its mechane:body.
+[[nodiscard]] std::vector<Pose> read_copies(Compilation& c, x3d::NodeId id, const Fields& body, const Pose& X_WB);
+/// COIN-1, COIN-2 ... of COIN-*; the name itself where it is not of that form.
+[[nodiscard]] std::vector<std::string> all_copies(const Compilation& c, const std::string& name);
+/// Where the name stands for several bodies, reports that one of them must be named. False where it does not.
+bool report_copies(Compilation& c, const Place& at, const std::string& name);
+/// The bodies of a RigidBody: its copies, or the one.
+[[nodiscard]] std::vector<BodyId> bodies_of(const Compilation& c, x3d::NodeId id);
 
 /// Finds the body with this name. If there is none, reports it and returns BodyId::none().
 [[nodiscard]] BodyId find_body(Compilation& c, const std::string& name, const Place& at);

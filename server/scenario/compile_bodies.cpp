@@ -106,15 +106,14 @@ void refuse_node(Compilation& c, const ShapeNodes& shape, const Place& at, const
 }
 
 /// Returns the node that hands touch; empty: they cannot touch the body.
-std::string read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, state::BodyDescription& body) {
-  const auto set = x3d::read_metadata(c.document, id, "mechane:body", c.problems);
+std::string read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, const Fields& fields, bool has_set,
+                       state::BodyDescription& body) {
   const bool own = c.shapes.has_shape(id);
-  if (!set && !own) {
+  if (!has_set && !own) {
     attributes.warning(ErrorCode::missing, "the body has no shape: it is neither drawn nor touched",
                        "put a CollidableShape into its geometry, or name a model and node in 'mechane:body'");
     return {};
   }
-  const Fields fields(set ? &*set : nullptr, body_table(), "mechane:body of " + body.name, c.problems);
   body.title = read_texts(c, fields.set("text"), fields.where() + ", text", "title")["title"];
   const auto shape = find_shape(c, id, fields, body.name);
   if (!shape) return {};
@@ -124,7 +123,7 @@ std::string read_shape(Compilation& c, x3d::NodeId id, Attributes& attributes, s
   if (fields.given("restitution")) body.restitution = fields.number("restitution");
   const std::filesystem::path file = c.document.path().parent_path() / shape->url;
   const Place at =
-      set ? Place(fields.where(), fields.line("node")) : Place(c.document.describe(id), c.document[id].line);
+      has_set ? Place(fields.where(), fields.line("node")) : Place(c.document.describe(id), c.document[id].line);
   if (!touchable || shape->drawn != shape->touched) {
     if (const auto found = c.loader.find_node(file, shape->drawn); !found)
       refuse_node(c, *shape, at, shape->drawn, found.error());
@@ -319,14 +318,26 @@ void compile_body(Compilation& c, x3d::NodeId id) {
   body.linear_damping = damping(c, attributes, "linearDampingFactor", body.linear_damping);
   body.angular_damping = damping(c, attributes, "angularDampingFactor", body.angular_damping);
   read_mass(attributes, body);
-  if (!body.fixed) read_motion(c, id, attributes, body);
   read_collection(c, id, body);
   read_haptic(c, id, body);
-  const std::string touched = read_shape(c, id, attributes, body);
-  c.touchable.push_back(!touched.empty());
+  const auto set = x3d::read_metadata(c.document, id, "mechane:body", c.problems);
+  const Fields fields(set ? &*set : nullptr, body_table(), "mechane:body of " + body.name, c.problems);
+  const std::string touched = read_shape(c, id, attributes, fields, set.has_value(), body);
   compare_with_mesh(c, attributes, touched, body);
-  c.world.bodies.push_back(std::move(body));
-  c.body_lines.push_back(c.document[id].line);
+  const auto add = [&](state::BodyDescription one) {
+    if (!one.fixed) read_motion(c, id, attributes, one);
+    c.world.bodies.push_back(std::move(one));
+    c.body_lines.push_back(c.document[id].line);
+    c.touchable.push_back(!touched.empty());
+  };
+  const std::vector<Pose> copies = read_copies(c, id, fields, body.X_WB);
+  if (copies.empty()) return add(std::move(body));
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    state::BodyDescription copy = body;
+    copy.name = copy_name(body.name, i);
+    copy.X_WB = copies[i];
+    add(std::move(copy));
+  }
 }
 
 }  // namespace

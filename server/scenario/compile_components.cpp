@@ -49,6 +49,18 @@ std::optional<x3d::BadValue> comma_in(const ParameterType& type, const x3d::Meta
   return wanted == 0 ? std::nullopt : x3d::comma_fault(value.commas, value.numbers.size(), wanted);
 }
 
+/// Puts the copies' names for COIN-* in a list of bodies.
+void name_copies(const Compilation& c, state::Parameter& list) {
+  auto* names = std::get_if<std::vector<std::string>>(&list);
+  if (names == nullptr) return;
+  std::vector<std::string> all;
+  for (const std::string& name : *names) {
+    const std::vector<std::string> copies = all_copies(c, name);
+    all.insert(all.end(), copies.begin(), copies.end());
+  }
+  *names = std::move(all);
+}
+
 void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentType& type, const std::string& where,
                     state::ComponentDescription& out) {
   const auto known = std::ranges::find(type.parameters, value.name, &ParameterType::name);
@@ -69,6 +81,8 @@ void read_parameter(Compilation& c, const x3d::Metadata& value, const ComponentT
     c.misspelt_parameters.emplace(out.name, value.name);
   } else {
     out.parameters[value.name] = to_parameter(value);
+    if (known->reference == state::Reference::body && known->kind == state::ParameterKind::texts)
+      name_copies(c, out.parameters[value.name]);
     out.parameter_lines[value.name] = value.line;
   }
 }
@@ -131,6 +145,12 @@ void compile_node_agents(Compilation& c, std::string_view node_type, state::Refe
     if (name.empty()) {
       attributes.error(ErrorCode::missing, "an element with an agent has no DEF",
                        "write a DEF: the agent gets the same name");
+      continue;
+    }
+    if (c.copies.contains(name)) {
+      attributes.error(
+          ErrorCode::conflict, fmt::format("{} is {} bodies, and this agent acts on one", name, c.copies.at(name)),
+          fmt::format("put it into the scenario's agents, and name its body there, like {}", copy_name(name, 0)));
       continue;
     }
     const std::size_t before = c.world.agents.size();
@@ -204,8 +224,10 @@ bool names_are_known(Compilation& c, const state::ComponentDescription& componen
     for (const std::string& name : names != nullptr ? *names : std::vector<std::string>()) {
       if (std::ranges::find(*known, name) != known->end()) continue;
       good = false;
+      const int line = state::parameter_place(component, value->first).line;
+      if (parameter.reference == state::Reference::body && report_copies(c, {where, line}, name)) continue;
       const std::string_view word = reference_word(parameter.reference);
-      c.problems.error(ErrorCode::unknown_name, state::parameter_place(component, value->first).line, where,
+      c.problems.error(ErrorCode::unknown_name, line, where,
                        fmt::format("{}: no {} is called '{}'", parameter.name, word, name),
                        suggest(name, *known, fmt::format("the scenario has no {}: add one", word)));
     }

@@ -70,7 +70,8 @@ class EventCompiler {
       drive(body);
     }
     for (const x3d::RoutedFields& route : c_.shapes.routes()) {
-      if (c_.document[route.to].name == "RigidBody") drive(c_.world.bodies[body_of(route.to).index()]);
+      if (c_.document[route.to].name != "RigidBody") continue;
+      if (const BodyId body = body_of(route.to)) drive(c_.world.bodies[body.index()]);
     }
   }
 
@@ -165,8 +166,8 @@ class EventCompiler {
     const x3d::NodeId collider = fields.node("collider");
     if (!collider) return;
     for (const x3d::NodeId body : c_.shapes.bodies_in(collider)) {
-      const BodyId found = body_of(body);
-      if (found && c_.world.bodies[found.index()].object) bodies.push_back(found);
+      for (const BodyId found : bodies_of(c_, body))
+        if (c_.world.bodies[found.index()].object) bodies.push_back(found);
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       for (std::size_t j = i + 1; j < bodies.size() && pairs_ <= state::kMostSensedPairs; ++j) {

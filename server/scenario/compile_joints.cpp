@@ -18,12 +18,19 @@ constexpr double kNoStop = kPi - 1e-3;
 BodyId body_of(Compilation& c, x3d::NodeId joint, std::string_view field, bool& good) {
   for (const x3d::NodeId child : c.document.child_elements(joint)) {
     if (c.document[child].name != "RigidBody" || c.document.container_field(child, "body1") != field) continue;
-    const BodyId body = c.world.find_body(x3d::node_name(c.document, c.document.resolve(child)));
+    const std::string name = x3d::node_name(c.document, c.document.resolve(child));
+    const BodyId body = c.world.find_body(name);
     if (body) return body;
+    good = false;
+    if (c.copies.contains(name)) {
+      Attributes(c.document, child, c.problems)
+          .error(ErrorCode::conflict, fmt::format("{} is {} bodies, and a joint joins one", name, c.copies.at(name)),
+                 "write the body that is joined as a RigidBody of its own, without copies");
+      return BodyId::none();
+    }
     Attributes(c.document, child, c.problems)
         .error(ErrorCode::unknown_name, fmt::format("{} is not a body of this world", field),
                "USE a RigidBody that has a DEF");
-    good = false;
   }
   return BodyId::none();
 }

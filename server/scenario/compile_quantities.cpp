@@ -66,6 +66,7 @@ void check_source(Compilation& c, const std::string& source, int line, const std
   const bool has_no_type =
       find_component(c.world.agents, name) != nullptr || find_component(c.world.machines, name) != nullptr;
   if (values.empty() && has_no_type) return;  // its unknown type has been reported
+  if (values.empty() && report_copies(c, {where, line}, name)) return;
   if (values.empty()) {
     c.problems.error(ErrorCode::unknown_name, line, where,
                      fmt::format("the source '{}' does not name an agent, machine, joint, body or sensor", source),

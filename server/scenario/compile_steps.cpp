@@ -95,13 +95,10 @@ void check_weight(Compilation& c, const Fields& fields, const state::BodyOverrid
                        "write gravity='0 -9.81 0' there, and useGlobalGravity='false' on what floats");
 }
 
-void read_override(Compilation& c, const x3d::Metadata& set, const std::string& step, state::StepDescription& out) {
-  const std::string name = set.name.substr(std::string_view("object:").size());
-  const Fields fields(&set, override_table(), fmt::format("{}, object {}", step, name), c.problems);
+state::BodyOverride read_override(Compilation& c, const Fields& fields, int line, BodyId id) {
   state::BodyOverride change;
-  change.body = find_body(c, name, {fields.where(), set.line});
-  if (!change.body) return;
-  const state::BodyDescription& body = c.world.bodies[change.body.index()];
+  change.body = id;
+  const state::BodyDescription& body = c.world.bodies[id.index()];
   change.movable = optional_boolean(fields, "movable");
   change.visible = optional_boolean(fields, "visible");
   change.graspable = optional_boolean(fields, "graspable");
@@ -116,10 +113,43 @@ void read_override(Compilation& c, const x3d::Metadata& set, const std::string& 
     if (fields.given("position")) change.X_WB->p = fields.vector("position");
     if (fields.given("orientation")) change.X_WB->R = fields.rotation("orientation");
     if (body.fixed)
-      c.problems.error(ErrorCode::conflict, set.line, fields.where(), "the body is fixed and cannot be moved",
+      c.problems.error(ErrorCode::conflict, line, fields.where(), "the body is fixed and cannot be moved",
                        "remove fixed='true' of the RigidBody");
   }
-  out.bodies.push_back(change);
+  return change;
+}
+
+/// What is said of a body twice, once of all copies and once of this one, is added up; the later counts.
+void add_override(const state::BodyOverride& change, state::StepDescription& out) {
+  const auto known = std::ranges::find(out.bodies, change.body, &state::BodyOverride::body);
+  if (known == out.bodies.end()) {
+    out.bodies.push_back(change);
+    return;
+  }
+  if (change.movable) known->movable = change.movable;
+  if (change.visible) known->visible = change.visible;
+  if (change.graspable) known->graspable = change.graspable;
+  if (change.use_gravity) known->use_gravity = change.use_gravity;
+  if (change.X_WB) known->X_WB = change.X_WB;
+}
+
+void read_overrides(Compilation& c, const x3d::Metadata& set, const std::string& step, state::StepDescription& out) {
+  const std::string name = set.name.substr(std::string_view("object:").size());
+  const Fields fields(&set, override_table(), fmt::format("{}, object {}", step, name), c.problems);
+  const std::vector<std::string> names = all_copies(c, name);
+  if (names.size() > 1 && (fields.given("position") || fields.given("orientation"))) {
+    c.problems.error(ErrorCode::conflict, set.line, fields.where(), "it would put all copies at one place",
+                     fmt::format("write a set object:{} for each, with its place", names.front()));
+    return;
+  }
+  std::optional<state::BodyOverride> change;
+  for (const std::string& one : names) {
+    const BodyId body = find_body(c, one, {fields.where(), set.line});
+    if (!body) return;
+    if (!change) change = read_override(c, fields, set.line, body);
+    change->body = body;
+    add_override(*change, out);
+  }
 }
 
 state::Comparison comparison_of(const std::string& op) {
@@ -238,7 +268,7 @@ void compile_step(Compilation& c, const Written& activity, const x3d::Metadata& 
                      fmt::format("'{}' is both enabled and disabled", c.world.agents[agent.index()].name), "keep one");
   }
   for (const x3d::Metadata* change : fields.sets_like("object:*"))
-    read_override(c, *change, where, step);
+    read_overrides(c, *change, where, step);
   for (const x3d::Metadata* trigger : fields.sets_like("trigger:*"))
     read_trigger(c, activity, *trigger, where, step, activity.find(set.name));
   read_timeout(c, activity, fields, step);

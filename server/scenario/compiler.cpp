@@ -107,7 +107,8 @@ void report_unknown(Compilation& c, const Place& at, std::string_view word, cons
 
 BodyId find_body(Compilation& c, const std::string& name, const Place& at) {
   const BodyId body = c.world.find_body(name);
-  if (!body) report_unknown(c, at, "body", name, names_of(c.world.bodies), "add a RigidBody of that DEF");
+  if (!body && !report_copies(c, at, name))
+    report_unknown(c, at, "body", name, names_of(c.world.bodies), "add a RigidBody of that DEF");
   return body;
 }
 
@@ -230,7 +231,8 @@ Expected<std::string> hash_file(const std::filesystem::path& file) {
 
 Expected<state::WorldDescription> compile(const x3d::Document& document, ObjectLoader& loader,
                                           x3d::Problems& problems) {
-  Compilation c{document, loader, problems, x3d::ShapeTree(document), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Compilation c{document, loader, problems, x3d::ShapeTree(document), {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
+                {},       {},     {}};
   compile_all(c);
   if (problems.has_errors()) return tl::unexpected(problems.first_error());
   return std::move(c.world);

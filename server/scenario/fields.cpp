@@ -45,6 +45,7 @@ std::size_t count_of(ValueKind kind) {
       return 9;
     case ValueKind::string:
     case ValueKind::strings:
+    case ValueKind::numbers:
     case ValueKind::boolean:
     case ValueKind::set:
       break;
@@ -59,6 +60,8 @@ bool is_of_kind(ValueKind kind, const x3d::Metadata& m) {
       return m.kind == x3d::MetadataKind::strings && m.strings.size() == 1;
     case ValueKind::strings:
       return m.kind == x3d::MetadataKind::strings;
+    case ValueKind::numbers:
+      return is_number(m);
     case ValueKind::number:
     case ValueKind::vector:
     case ValueKind::rotation:

@@ -23,7 +23,7 @@ class Fields {
   [[nodiscard]] double number(std::string_view key) const;
   /// Whether some key is missing, misspelt or wrong, which has been reported. What seems to be wrong between keys may follow from it.
   [[nodiscard]] bool has_faults() const { return has_faults_; }
-  /// Those of a number or vector, as they are written; none where it is not given.
+  /// Those of a number, of numbers or of a vector, as they are written; none where it is not given.
   [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
   [[nodiscard]] bool boolean(std::string_view key) const;
   [[nodiscard]] std::string string(std::string_view key) const;

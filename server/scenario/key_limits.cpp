@@ -83,6 +83,8 @@ std::string_view kind_in_words(ValueKind kind) {
       return "MetadataString";
     case number:
       return "MetadataDouble with one number";
+    case numbers:
+      return "MetadataDouble with numbers";
     case vector:
       return "MetadataDouble with 3 numbers";
     case rotation:

@@ -1,11 +1,10 @@
 // The tables of metadata keys, from the inside out: each table comes before those that refer to it.
-#include "server/scenario/schema.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include "server/base/assert.hpp"
 #include "server/hand/hand_force.hpp"
+#include "server/scenario/schema_visits.hpp"
 #include "server/state/component_type.hpp"
 #include "server/state/description.hpp"
 #include "server/state/surface_keys.hpp"
@@ -235,91 +234,6 @@ constexpr Key kActivityKeys[] = {
 };
 constexpr Table kActivity{"activity", "a task for a visitor", kActivityKeys};
 
-constexpr Key kMoveKeys[] = {
-    {.name = "kind",
-     .summary = "what the hand does",
-     .example = "\"reach\"",
-     .required = true,
-     .choices = "reach grasp move_to turn swing release wait"},
-    {.name = "body", .summary = "reach, grasp, move_to: of which body", .example = "\"INNER\"", .names = Names::body},
-    {.name = "grip",
-     .kind = vector,
-     .unit = "m",
-     .summary = "reach: the grip's centre in the body's frame",
-     .example = "0.25 0 1.36",
-     .min = -state::kFarthest_m,
-     .max = state::kFarthest_m},
-    {.name = "position",
-     .kind = vector,
-     .unit = "m",
-     .summary = "move_to: where the body goes, in W",
-     .example = "0 0.55 0",
-     .min = -state::kFarthest_m,
-     .max = state::kFarthest_m},
-    {.name = "orientation",
-     .kind = rotation,
-     .unit = "rad",
-     .summary = "move_to: how the body stands, in W",
-     .example = "0 1 0 1.57",
-     .min = -kLargest,
-     .max = kLargest},
-    {.name = "joint", .summary = "turn, swing: which hinge", .example = "\"AXLE\"", .names = Names::joint},
-    {.name = "turns", .kind = number, .summary = "turn: how far", .example = "8", .min = -1000, .max = 1000},
-    {.name = "rpm",
-     .kind = number,
-     .unit = "1/min",
-     .summary = "turn: how fast",
-     .example = "30",
-     .default_number = 20,
-     .min = 0.1,
-     .max = 300},
-    {.name = "angle",
-     .kind = number,
-     .unit = "rad",
-     .summary = "swing: how far to either side of the joint's 0; below 0: backwards first",
-     .example = "0.2",
-     .min = -3,
-     .max = 3},
-    {.name = "cycles",
-     .kind = number,
-     .summary = "swing: how often to and fro",
-     .example = "8",
-     .default_number = 1,
-     .min = 0.25,
-     .max = 1000},
-    {.name = "perMinute",
-     .kind = number,
-     .unit = "1/min",
-     .summary = "swing: how many cycles a minute",
-     .example = "30",
-     .default_number = 20,
-     .min = 0.1,
-     .max = 300},
-    {.name = "seconds",
-     .kind = number,
-     .unit = "s",
-     .summary = "how long it lasts; not for turn and swing",
-     .example = "1.5",
-     .default_number = 1,
-     .min = 0,
-     .max = 600},
-};
-constexpr Table kMove{"move:N", "one move of a visit", kMoveKeys};
-
-constexpr Key kVisitKeys[] = {
-    {.name = "activity",
-     .summary = "which activity it plays",
-     .example = "\"use\"",
-     .required = true,
-     .names = Names::activity},
-    {.name = "move:*",
-     .kind = set,
-     .summary = "the moves, played in the order written",
-     .example = "move:1",
-     .inner = &kMove},
-};
-constexpr Table kVisit{"visit", "a scripted hand", kVisitKeys};
-
 constexpr Key kEffectKeys[] = {
     {.name = "kind",
      .summary =
@@ -432,7 +346,7 @@ constexpr Key kScenarioKeys[] = {
     {.name = "visits",
      .kind = set,
      .summary = "sets named as the scripted visits",
-     .inner = &kVisit,
+     .inner = &kVisitTable,
      .free_names = true},
     {.name = "effects",
      .kind = set,
@@ -475,6 +389,59 @@ constexpr Key kHapticKeys[] = {
 };
 constexpr Table kHaptic{"mechane:haptic", "on a RigidBody: what touch feels", kHapticKeys};
 
+constexpr Key kCopiesKeys[] = {
+    {.name = "count",
+     .kind = number,
+     .summary = "how many bodies there are: NAME-1, NAME-2 and so on",
+     .example = "20",
+     .required = true,
+     .unless = "positions",
+     .min = 2,
+     .max = 200},
+    {.name = "step",
+     .kind = vector,
+     .unit = "m",
+     .summary = "a row, or a pile: from each to the next, in W",
+     .example = "0 0.003 0",
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
+    {.name = "columns",
+     .kind = number,
+     .summary = "a grid: how many stand in each row",
+     .example = "5",
+     .min = 1,
+     .max = 200},
+    {.name = "rowStep",
+     .kind = vector,
+     .unit = "m",
+     .summary = "a grid: from each row to the next, in W",
+     .example = "0 0 0.05",
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
+    {.name = "ringCentre",
+     .kind = vector,
+     .unit = "m",
+     .summary = "a ring: they stand evenly about this point of W, each turned as its place is",
+     .example = "0 0.8 0",
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
+    {.name = "ringAxis",
+     .kind = vector,
+     .summary = "a ring: what it lies about, in W; none: 0 1 0",
+     .example = "0 0 1",
+     .min = -kLargest,
+     .max = kLargest},
+    {.name = "positions",
+     .kind = numbers,
+     .unit = "m",
+     .summary = "a list: x y z of each, in W, the first one's too",
+     .example = "0 0.8 0 0.1 0.8 0",
+     .min = -state::kFarthest_m,
+     .max = state::kFarthest_m},
+};
+constexpr Table kCopies{
+    "copies", "in a mechane:body: one RigidBody for many bodies, which differ in name and place alone", kCopiesKeys};
+
 constexpr Key kBodyKeys[] = {
     {.name = "model",
      .summary = "DEF of the Inline whose file holds the shape; left out: the shape is the body's `geometry`",
@@ -501,12 +468,13 @@ constexpr Key kBodyKeys[] = {
      .kind = set,
      .summary = "title.LANGUAGE: what it is called; displays write it above what a hand comes near or points at",
      .inner = &kText},
+    {.name = "copies", .kind = set, .summary = "many such bodies instead of one", .inner = &kCopies},
 };
 constexpr Table kBody{"mechane:body", "on a RigidBody: its shape in a mesh file", kBodyKeys};
 
-constexpr std::array<const Table*, 14> kTables{&kScenario, &kQuantity, &kActivity, &kQuestion, &kStep,
-                                               &kOverride, &kTrigger,  &kRule,     &kText,     &kVisit,
-                                               &kMove,     &kEffect,   &kHaptic,   &kBody};
+constexpr std::array<const Table*, 15> kTables{&kScenario,  &kQuantity, &kActivity, &kQuestion, &kStep,
+                                               &kOverride,  &kTrigger,  &kRule,     &kText,     &kVisitTable,
+                                               &kMoveTable, &kEffect,   &kHaptic,   &kBody,     &kCopies};
 
 }  // namespace
 
@@ -551,17 +519,14 @@ const Table& rule_table() {
 const Table& text_table() {
   return kText;
 }
-const Table& visit_table() {
-  return kVisit;
-}
-const Table& move_table() {
-  return kMove;
-}
 const Table& haptic_table() {
   return kHaptic;
 }
 const Table& body_table() {
   return kBody;
+}
+const Table& copies_table() {
+  return kCopies;
 }
 std::span<const Table* const> all_tables() {
   return kTables;

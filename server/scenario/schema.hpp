@@ -17,6 +17,7 @@ enum class ValueKind {
   string,    ///< one string
   strings,   ///< any count of strings
   number,    ///< one number (Double, Float or Integer)
+  numbers,   ///< any count of numbers
   vector,    ///< three numbers
   rotation,  ///< four: axis, angle in radians
   matrix,    ///< nine, of a 3x3 matrix; fields of nodes only
@@ -77,6 +78,7 @@ inline constexpr int kFormatVersion = 1;
 [[nodiscard]] const Table& move_table();    ///< `move:N` in a visit
 [[nodiscard]] const Table& haptic_table();  ///< `mechane:haptic` on a RigidBody
 [[nodiscard]] const Table& body_table();    ///< `mechane:body` on a RigidBody
+[[nodiscard]] const Table& copies_table();  ///< `copies` in a `mechane:body`
 [[nodiscard]] std::span<const Table* const> all_tables();
 
 /// The nodes of X3D that Mechane reads, each with the fields that it reads: types and defaults are X3D's own (x3d/schema.hpp).

@@ -24,6 +24,8 @@ std::string_view type_word(ValueKind kind) {
       return "strings";
     case ValueKind::number:
       return "number";
+    case ValueKind::numbers:
+      return "numbers";
     case ValueKind::vector:
       return "vector";
     case ValueKind::rotation:

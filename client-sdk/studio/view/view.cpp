@@ -7,6 +7,7 @@
 
 #include "client-sdk/studio/edits/body_edits.hpp"
 #include "server/base/math.hpp"
+#include "server/scenario/copies.hpp"
 #include "server/x3d/metadata.hpp"
 #include "server/x3d/node_fields.hpp"
 #include "server/x3d/shape_tree.hpp"
@@ -101,6 +102,14 @@ std::optional<Pose> pose_in_world(const Document& document, NodeId id) {
                         fields.rotation(transform ? "rotation" : "orientation")};
 }
 
+/// The names of the bodies that a RigidBody stands for; none where it is one.
+ViewJson copies_json(const Document& document, NodeId id) {
+  ViewJson names = ViewJson::array();
+  for (const std::string& name : scenario::copies_in(document, id))
+    names.push_back(name);
+  return names;
+}
+
 ViewJson node_json(const Document& document, NodeId id) {
   const std::string& type = document[id].name;
   ViewJson out{{"def", def_of(document, id)}, {"type", type}, {"line", document[id].line}};
@@ -111,6 +120,7 @@ ViewJson node_json(const Document& document, NodeId id) {
     const bool fixed = fields.boolean("fixed");
     out["movable"] = !fixed;
     if (!fixed) out["mass"] = fields.number("mass");
+    if (ViewJson copies = copies_json(document, id); !copies.empty()) out["copies"] = std::move(copies);
     for (const NodeId child : document.child_elements(id)) {
       if (is_collidable(document, child) && !document[child].used && !def_of(document, child).empty())
         children.push_back({{"def", def_of(document, child)},

@@ -233,5 +233,44 @@ TEST(Renames, AreNewToBothFiles) {
   EXPECT_EQ(renames.count(), 1u);
 }
 
+/// The shipped file with three coins of one RigidBody, which an agent, a quantity and a step name.
+std::string with_coins() {
+  const auto value = [](const std::string& node, const std::string& name, const std::string& text) {
+    return "<Metadata" + node + " containerField='value' name='" + name + "' value='" + text + "'/>";
+  };
+  const std::string agents = "<MetadataSet containerField='value' name='agents'>";
+  const std::string quantities = "<MetadataSet containerField='value' name='quantities'>";
+  const std::string fill = "<MetadataSet containerField='value' name='fill'>";
+  return with_edits(
+      {{agents, agents + "<MetadataSet containerField='value' name='TAKE'>" +
+                    value("String", "type", "\"simulation.grasp\"") +
+                    value("String", "bodies", "\"COIN-*\" \"INNER\"") + "</MetadataSet>"},
+       {quantities, quantities + value("String", "third", "\"COIN-3.speed\"")},
+       {fill, fill + "<MetadataSet containerField='value' name='object:COIN-2'>" +
+                  value("Boolean", "visible", "false") + "</MetadataSet>"},
+       {"</RigidBodyCollection>",
+        "<RigidBody DEF='COIN' containerField='bodies' inertia='1 0 0 0 1 0 0 0 1' position='3 2 3'><MetadataSet "
+        "containerField='metadata' name='mechane:body'>" +
+            value("String", "model", "\"MODEL\"") + value("String", "node", "\"INNER\"") +
+            "<MetadataSet containerField='value' name='copies'>" + value("Double", "count", "3") +
+            value("Double", "step", "0 0.5 0") + "</MetadataSet></MetadataSet></RigidBody></RigidBodyCollection>"}});
+}
+
+TEST_F(MergeFiles, CopiesOfABodyThatIsRenamedFollowIt) {
+  const std::string file = write("coins.x3d", with_coins());
+  const auto merged = merge_files({file, file}, folder / "in" / "both.x3d");
+  ASSERT_TRUE(merged) << merged.error().to_string();
+  for (const char* renamed : {"\"COIN_2-*\"", "\"COIN_2-3.speed\"", "'object:COIN_2-2'"})
+    EXPECT_NE(merged->text.find(renamed), std::string::npos) << renamed;
+  x3d::Problems problems("both.x3d");
+  const auto document = x3d::read_document(merged->text, folder / "in" / "both.x3d", problems);
+  ASSERT_TRUE(document);
+  FakeLoader loader;
+  const auto world = scenario::compile(*document, loader, problems);
+  ASSERT_TRUE(world) << world.error().to_string();
+  for (const char* name : {"COIN-1", "COIN-3", "COIN_2-1", "COIN_2-3"})
+    EXPECT_TRUE(world->find_body(name)) << name;
+}
+
 }  // namespace
 }  // namespace mechane::authoring

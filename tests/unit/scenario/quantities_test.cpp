@@ -68,7 +68,9 @@ TEST(Quantities, ALabelIsAWordingOfTheCatalogue) {
          "<MetadataString containerField='value' name='languages' value='\"el\" \"en\"'/>"
          "<MetadataSet containerField='value' name='quantities'>"
       << quantity
-      << "</MetadataSet><MetadataSet containerField='value' name='activities'/></MetadataSet></WorldInfo>"
+      << "</MetadataSet><MetadataSet containerField='value' name='activities'><MetadataSet containerField='value' "
+         "name='a'><MetadataSet containerField='value' name='steps'><MetadataSet containerField='value' "
+         "name='s'/></MetadataSet></MetadataSet></MetadataSet></MetadataSet></WorldInfo>"
          "<RigidBodyCollection><RigidBody DEF='BALL' containerField='bodies'/></RigidBodyCollection>"
          "</Scene></X3D>";
   const auto facts = read_facts(file);

@@ -268,11 +268,8 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, captions_lie_over_nothing_and_within_the_
                                                {"Θερμοκρασία", "100", "°C", 0.5, "100"},
                                                {"Δύναμη", "-31,5", "νιούτον", 1, "50"}};
   content.readouts.assign(readouts.begin(), readouts.begin() + between(0, 4));
-  for (picture::Readout& readout : content.readouts) {
-    readout.named = between(0, 2) == 0;
-    if (readout.named) readout.label = some_words(1, 8);
-    if (readout.named) readout.begin = "-1000";
-  }
+  for (picture::Readout& readout : content.readouts)
+    if (between(0, 2) == 0) readout.named = true, readout.label = some_words(1, 8), readout.begin = "-1000";
   if (between(0, 1) == 0)  // the longest words that there are
     content.notice = {picture::OverlayNotice::Sign(between(0, 5)), "Το γάντι δεν είναι συνδεδεμένο",
                       *rc::gen::arbitrary<bool>() ? "Πιάστε την με το χέρι σας ή ενημερώστε το προσωπικό." : ""};
@@ -436,40 +433,6 @@ TEST(OverlayLayout, high_contrast_is_opaque_black_under_white_and_yellow_words) 
     const float luminance = 0.2126F * text.colour.x() + 0.7152F * text.colour.y() + 0.0722F * text.colour.z();
     EXPECT_GT(luminance, 0.75F) << text.text;
   }
-}
-
-TEST(OverlayLayout, a_gauge_with_a_name_has_it_in_a_narrow_picture_too) {
-  picture::OverlayContent content;
-  content.readouts = {{"Left cylinder", "12.4", "litres", 0.5, "20"}, {"Right cylinder", "3.0", "litres", 0.5, "20"}};
-  const auto says = [](const OverlayLayout& layout, const std::string& words) {
-    return std::ranges::count(layout.texts, words, &OverlayText::text);
-  };
-  EXPECT_EQ(says(lay_out(content, {640, 720}, real_letters()), "Left cylinder"), 0);
-  content.readouts[0].named = content.readouts[1].named = true;
-  const OverlayLayout narrow = lay_out(content, {640, 720}, real_letters());
-  EXPECT_EQ(says(narrow, "Left cylinder"), 1);
-  EXPECT_EQ(says(narrow, "Right cylinder"), 1);
-  EXPECT_EQ(says(narrow, "0–20"), 2);
-  content.readouts[0].begin = "-5";
-  EXPECT_EQ(says(lay_out(content, {1280, 720}, real_letters()), "-5 … 20"), 1);
-}
-
-TEST(OverlayLayout, a_longer_name_widens_the_panel_and_is_cut_at_last) {
-  picture::OverlayContent content;
-  const auto panel = [&] { return lay_out(content, {1280, 720}, real_letters()); };
-  content.readouts = {{"Water", "12.4", "litres", 0.5, "20"}};
-  const float usual = panel().shapes.front().width;
-  content.readouts[0].named = true;
-  EXPECT_EQ(panel().shapes.front().width, usual) << "a short name needs no more room";
-  content.readouts[0].label = "Water in the left cylinder";
-  EXPECT_GT(panel().shapes.front().width, usual);
-  EXPECT_TRUE(std::ranges::any_of(panel().texts, [&](const auto& t) { return t.text == content.readouts[0].label; }));
-  content.readouts[0].label = "All the water that stands in the left cylinder and above it in the pipe";
-  const OverlayLayout cut = panel();
-  const auto name = std::ranges::find_if(cut.texts, [](const auto& t) { return t.text.starts_with("All the water"); });
-  ASSERT_NE(name, cut.texts.end());
-  EXPECT_TRUE(name->text.ends_with(" …")) << name->text;
-  EXPECT_LT(cut.shapes.front().width, 1.5F * usual);
 }
 
 TEST(OverlayLayout, a_goal_is_a_mark_on_its_gauge) {
