@@ -32,6 +32,12 @@ struct OverlayDot {
   Eigen::Vector4f colour = Eigen::Vector4f::Ones();
 };
 
+/// A box in one eye's picture, pixels from its upper left corner.
+struct PictureBox {
+  float left = 0, top = 0, right = 0, bottom = 0;
+  friend bool operator==(const PictureBox&, const PictureBox&) = default;
+};
+
 /// A thing's name, written above it where there is room. Places are in pixels of one eye's picture.
 struct OverlayLabel {
   std::string text;
@@ -98,6 +104,13 @@ struct OverlayContent {
   std::vector<OverlayDot> dots{};        ///< of the display's own hand
   std::optional<OverlayLabel> label{};   ///< of the thing under the pointer
   std::optional<OverlayAction> meant{};  ///< action of the button under the mouse, which is highlighted
+  /// What captions and notes must not cover, the most important first.
+  std::vector<PictureBox> keep_off{};
+  float caption_for_s =
+      0;                 ///< how long goal, caption and hint have been as they are: it turns the pages of a long text
+  float note_for_s = 0;  ///< likewise the note, or the message
+  std::optional<PictureBox> caption_at{};  ///< in the last picture: they stay there until they cover something
+  std::optional<PictureBox> note_at{};
   std::optional<OverlayCode> code{};  ///< over the corner's buttons, where there is room; not beside a panel or a pose
 };
 

@@ -1,91 +1,20 @@
 #include "client-sdk/draw/text/overlay_layout.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "client-sdk/draw/text/overlay_captions.hpp"
 #include "client-sdk/draw/text/overlay_page.hpp"
-#include "client-sdk/draw/text/overlay_sign.hpp"
+#include "client-sdk/draw/text/overlay_place.hpp"
 
 namespace mechane::draw {
 namespace {
 
-constexpr float kPadding = 24;
-constexpr float kTitleSize = 18;
-constexpr float kGoalSize = 21;
-constexpr float kCaptionSize = 27;
-constexpr float kHintSize = 20;
-constexpr float kNoteSize = 20;
 constexpr float kLabelSize = 21;
-constexpr float kNoticeSize = 27;
-constexpr float kNoticeLine = 36;
-constexpr float kNoticeMoreSize = 20;
-constexpr float kNoticeMoreLine = 28;
-constexpr float kNoticePadding = 20;
-constexpr float kNoticeWidest = 760;
-constexpr float kSignSize = 84;
-
-/// The content of a caption panel under its title, from top to bottom.
-struct CaptionPart {
-  Face face;
-  float size;
-  Eigen::Vector4f colour;
-  const std::string& text;
-};
-
-/// Adds the lines under the title from y = 0 on; returns the height with the padding.
-float add_caption_lines(Page& page, const picture::OverlayContent& content, float x, float inner) {
-  const Palette& c = page.colours;
-  const std::array<CaptionPart, 3> parts{{{Face::serif, kGoalSize, c.paper, content.goal},
-                                          {Face::regular, kCaptionSize, c.paper, content.caption},
-                                          {Face::regular, kHintSize, c.water, content.hint}}};
-  float at = page.tx(kPadding) + page.tx(kTitleSize * 1.2F);
-  for (const CaptionPart& part : parts) {
-    const auto lines = page.lines(part.face, part.size, part.text, inner);
-    if (!lines.empty()) at += page.tx(8);
-    for (const std::string& line : lines) {
-      page.add_text(x, at + page.tx(part.size * 1.02F), part.face, part.size, part.colour, line);
-      at += page.tx(part.size * 1.37F);
-    }
-  }
-  return at + page.tx(kPadding);
-}
-
-/// Adds the panel at the bottom of `room`; words become smaller until it fits. Returns its place.
-Box add_caption(Page& page, const picture::OverlayContent& content, const Box& room) {
-  if (content.caption.empty() && content.title.empty()) return {};
-  const float wanted = page.scale;
-  const std::size_t texts = page.out.texts.size();
-  float height = 0;
-  float padding = 0;
-  for (;; page.scale *= 0.92F) {
-    padding = page.tx(kPadding);
-    page.out.texts.resize(texts);
-    height = add_caption_lines(page, content, room.x + padding, room.width - 2 * padding);
-    if (height <= room.height || page.scale < 0.3F) break;
-  }
-  // Still too many words, or almost no room: only the first ones.
-  while (height > room.height && page.out.texts.size() > texts) {
-    page.out.texts.pop_back();
-    const OverlayText* last = page.out.texts.size() > texts ? &page.out.texts.back() : nullptr;
-    height = (last == nullptr ? page.tx(kTitleSize * 1.2F) + padding : last->baseline + page.tx(8)) + padding;
-  }
-  const Box box{room.x, room.below() - height, room.width, height};
-  page.move_down(page.out.shapes.size(), texts, page.out.targets.size(), box.y);
-  page.add_panel(box);
-  const float title_line = page.tx(kTitleSize * 1.2F);
-  page.add_shape({box.x, box.y + padding, page.px(page.high_contrast ? 10 : 4), title_line}, 0, page.colours.gold);
-  const float dots =
-      page.add_dots(box.right() - padding, box.y + padding + title_line / 2, content.steps_done, content.steps_total);
-  // A title that would reach the dots is cut: the caption is more important.
-  const auto title = page.lines(Face::bold, kTitleSize, content.title, box.width - 3 * padding - dots);
-  if (!title.empty()) {
-    page.add_text(box.x + padding, box.y + padding + page.tx(kTitleSize * 0.95F), Face::bold, kTitleSize,
-                  page.colours.gold, title.front());
-  }
-  page.scale = wanted;
-  return box;
-}
+/// More things than visitors can look at; the search for a place takes longer with each.
+constexpr std::size_t kMostSeen = 16;
+/// Where a whole caption has no place: share of its width, and lines of a page. Each is smaller than the one before.
+constexpr std::pair<float, std::size_t> kSmallerPanels[] = {{0.75F, 99}, {0.75F, 2}, {0.55F, 2}, {0.55F, 1}};
 
 /// A narrow picture has no room for labels beside the machine: the unit alone must explain the number, unless the author has named it.
 struct ReadoutSizes {
@@ -161,8 +90,8 @@ void add_readout(Page& page, const picture::Readout& readout, const ReadoutSizes
   if (readout.goal) add_goal(page, x + full * static_cast<float>(std::clamp(*readout.goal, 0.0, 1.0)), bar_y + bar / 2);
 }
 
-/// Adds as many readouts as fit above `below`, in their order.
-Box add_readouts(Page& page, const picture::OverlayContent& content, const std::vector<Box>& others) {
+/// The panel of as many readouts as fit above the others, in their order. Empty: none fits.
+Box readouts_box(const Page& page, const picture::OverlayContent& content, const std::vector<Box>& others) {
   const ReadoutSizes s = readout_sizes(page, content.readouts);
   Box box{page.width - page.margin() - s.width, page.margin(), s.width, 0};
   float below = page.height - page.margin();
@@ -173,98 +102,23 @@ Box add_readouts(Page& page, const picture::OverlayContent& content, const std::
   const auto count = std::min(content.readouts.size(), static_cast<std::size_t>(std::max(rows, 0.0F)));
   if (count == 0) return {};
   box.height = static_cast<float>(count) * s.row + edges;
+  return box;
+}
+
+void add_readouts(Page& page, const picture::OverlayContent& content, const Box& box) {
+  if (box.empty()) return;
+  const ReadoutSizes s = readout_sizes(page, content.readouts);
   page.add_panel(box);
+  const auto count = static_cast<std::size_t>(std::lround((box.height - 2 * s.padding) / s.row));
   for (std::size_t i = 0; i < count; ++i) {
     add_readout(page, content.readouts[i], s, box.x + s.padding, box.y + s.padding + static_cast<float>(i) * s.row);
   }
-  return box;
-}
-
-/// A note about the link, or a notice with its sign: its lines, measured.
-struct Note {
-  std::optional<picture::OverlayNotice::Sign> sign;
-  std::vector<std::string> lines, more;
-  float width = 0, height = 0;
-  [[nodiscard]] std::size_t count() const { return lines.size() + more.size(); }
-};
-
-float widest(const Page& page, Face face, float size, const std::vector<std::string>& lines) {
-  float most = 0;
-  for (const std::string& line : lines)
-    most = std::max(most, page.measure(face, size, line));
-  return most;
-}
-
-Note measure_notice(const Page& page, const picture::OverlayNotice& notice, float most) {
-  Note note;
-  note.sign = notice.sign;
-  most = std::min(most, page.tx(kNoticeWidest));
-  const float beside = page.tx(kSignSize + 3 * kNoticePadding);
-  note.lines = page.lines(Face::bold, kNoticeSize, notice.text, most - beside);
-  note.more = page.lines(Face::regular, kNoticeMoreSize, notice.more, most - beside);
-  note.width = beside + std::max(widest(page, Face::bold, kNoticeSize, note.lines),
-                                 widest(page, Face::regular, kNoticeMoreSize, note.more));
-  const float words = page.tx(kNoticeLine) * static_cast<float>(note.lines.size()) +
-                      page.tx(kNoticeMoreLine) * static_cast<float>(note.more.size());
-  note.height = std::max(page.tx(kSignSize), words) + 2 * page.tx(kNoticePadding);
-  return note;
-}
-
-Note measure_note(const Page& page, const picture::OverlayContent& content, float most) {
-  if (content.notice) return measure_notice(page, *content.notice, most);
-  Note note;
-  const float padding = page.tx(20);
-  note.lines =
-      page.lines(Face::regular, kNoteSize, content.note.empty() ? content.message : content.note, most - 2 * padding);
-  if (note.lines.empty()) return note;
-  note.width = widest(page, Face::regular, kNoteSize, note.lines) + 2 * padding;
-  note.height = page.tx(18) + static_cast<float>(note.lines.size()) * page.tx(28);
-  return note;
-}
-
-void add_notice_words(Page& page, const Note& note, const Box& box) {
-  const float padding = page.tx(kNoticePadding);
-  const float side = page.tx(kSignSize);
-  add_sign(page, *note.sign, {box.x + padding, std::round(box.y + (box.height - side) / 2), side, side});
-  const float x = box.x + 2 * padding + side;
-  const float words = page.tx(kNoticeLine) * static_cast<float>(note.lines.size()) +
-                      page.tx(kNoticeMoreLine) * static_cast<float>(note.more.size());
-  float at = box.y + (box.height - words) / 2;
-  for (const std::string& line : note.lines) {
-    page.add_text(x, at + page.tx(0.75F * kNoticeLine), Face::bold, kNoticeSize, page.colours.paper, line);
-    at += page.tx(kNoticeLine);
-  }
-  for (const std::string& line : note.more) {
-    page.add_text(x, at + page.tx(0.75F * kNoticeMoreLine), Face::regular, kNoticeMoreSize, page.colours.paper, line);
-    at += page.tx(kNoticeMoreLine);
-  }
-}
-
-/// A note stands in the middle, a notice begins at `left`.
-Box add_note(Page& page, const Note& note, float left, float y) {
-  const Box box{note.sign ? left : std::round((page.width - note.width) / 2), y, note.width, note.height};
-  if (note.sign) {
-    page.add_panel(box);
-    add_notice_words(page, note, box);
-    return box;
-  }
-  page.add_shape(box, std::min(box.height / 2, page.tx(23)), page.colours.ink);
-  float at = y + page.tx(30);
-  for (const std::string& line : note.lines) {
-    page.add_text(box.x + page.tx(20), at, Face::regular, kNoteSize, page.colours.paper, line);
-    at += page.tx(28);
-  }
-  return box;
 }
 
 Box united(const Box& a, const Box& b) {
   if (a.empty() || b.empty()) return a.empty() ? b : a;
   const float x = std::min(a.x, b.x), y = std::min(a.y, b.y);
   return {x, y, std::max(a.right(), b.right()) - x, std::max(a.below(), b.below()) - y};
-}
-
-bool overlap(const Box& a, const Box& b) {
-  return !a.empty() && !b.empty() && a.shares_columns(b) && a.y < b.below() && b.y < a.below();
 }
 
 /// The corners around a thing, to show which one is meant where several stand close together.
@@ -281,8 +135,10 @@ void add_corners(Page& page, const Box& thing) {
   }
 }
 
-/// Places a label above its thing, or below it, where there is nothing else: panels are more important.
-void add_label(Page& page, const picture::OverlayLabel& label, const std::vector<Box>& others) {
+/// Places a label above its thing, or below it, where there is nothing else: panels are more important. Of the two it takes the one that
+/// covers nothing of `seen`, if there is one.
+void add_label(Page& page, const picture::OverlayLabel& label, const std::vector<Box>& others,
+               const std::vector<Box>& seen) {
   const float room = page.width - 2 * page.margin();
   const auto lines = page.lines(Face::bold, kLabelSize, label.text, room);
   if (lines.empty()) return;
@@ -299,12 +155,16 @@ void add_label(Page& page, const picture::OverlayLabel& label, const std::vector
   const float height = page.tx(38);
   const float middle = (label.left + label.right) / 2;
   const float x = std::round(std::clamp(middle - width / 2, page.margin(), page.width - page.margin() - width));
-  for (const float y : {thing.y - page.px(4) - height, thing.below() + page.px(4)}) {
-    const Box box{x, std::round(y), width, height};
-    if (!is_free(box)) continue;
-    page.add_shape(box, page.tx(10), page.colours.ink);
-    return page.add_text(x + padding, box.y + page.tx(26), Face::bold, kLabelSize, page.colours.paper, lines.front());
-  }
+  std::vector<Box> places;
+  for (const float y : {thing.y - page.px(4) - height, thing.below() + page.px(4)})
+    if (const Box box{x, std::round(y), width, height}; is_free(box)) places.push_back(box);
+  if (places.empty()) return;
+  const auto hides = [&](const Box& box) {
+    return std::ranges::any_of(seen, [&](const Box& other) { return overlap(box, other); });
+  };
+  const Box& box = hides(places.front()) && !hides(places.back()) ? places.back() : places.front();
+  page.add_shape(box, page.tx(10), page.colours.ink);
+  page.add_text(x + padding, box.y + page.tx(26), Face::bold, kLabelSize, page.colours.paper, lines.front());
 }
 
 Box inset_box(picture::PixelSize size) {
@@ -344,7 +204,11 @@ void lay_out_panel(Page& page, const picture::OverlayContent& content, const Box
   const float margin = page.margin();
   const Note note = measure_note(page, content, page.width - 2 * margin);
   float top = margin;
-  if (!note.lines.empty()) top = add_note(page, note, margin, top).below() + page.gap();
+  if (!note.lines.empty()) {
+    const Box said{note.sign ? margin : std::round((page.width - note.width) / 2), margin, note.width, note.height};
+    add_note(page, note, said);
+    top = said.below() + page.gap();
+  }
   const float below = corner.empty() ? page.height - margin : corner.y - page.gap();
   add_question_panel(page, *content.panel, {margin, top, page.width - 2 * margin, below - top});
 }
@@ -355,33 +219,150 @@ void lay_out_pose(Page& page, const picture::OverlayPose& pose, const Box& corne
   add_pose(page, pose, {margin, margin, page.width - 2 * margin, below - margin});
 }
 
-void lay_out_captions(Page& page, const picture::OverlayContent& content, const Box& corner, const Box& inset) {
-  const float gap = page.gap();
-  const float margin = page.margin();
-  const ReadoutSizes readout = readout_sizes(page, content.readouts);
-  const float readouts = page.width - margin - (content.readouts.empty() ? 0 : readout.width + gap);
-  // At the top, a note in the middle and a notice over the caption, if it needs few lines; otherwise above the caption.
-  const float middle = page.width / 2;
-  const float left = inset.empty() ? margin : inset.right() + gap;
-  const float room = content.notice ? readouts - left : 2 * std::min(readouts - middle, middle - left);
-  Note note = measure_note(page, content, std::max(room, page.tx(240)));
-  const bool note_above = note.width <= room && note.count() <= 3;
-  if (!note_above) note = measure_note(page, content, page.width - 2 * margin);
-  float top = inset.empty() ? margin : inset.below() + gap;
-  // At least one readout is placed before a long caption.
-  if (!content.readouts.empty()) top = std::max(top, margin + 2 * readout.padding + readout.row + gap);
-  if (!note.lines.empty()) top = note_above ? std::max(top, margin + note.height + gap) : top + note.height + gap;
-  const Box caption = add_caption(page, content, caption_room(page, corner, top));
-  if (!caption.empty()) page.out.covered_below = 1 - caption.y / page.height;
-  float low = page.height - margin + gap;
-  for (const Box& box : {caption, corner})
-    if (!box.empty()) low = std::min(low, box.y);
-  Box said;
-  if (!note.lines.empty())
-    said = note_above ? add_note(page, note, left, margin) : add_note(page, note, margin, low - gap - note.height);
-  const Box numbers = add_readouts(page, content, {caption, corner, said});
-  if (content.label) add_label(page, *content.label, {caption, corner, said, inset, numbers});
+picture::PictureBox picture_box(const Box& box) {
+  return {box.x, box.y, box.right(), box.below()};
 }
+
+/// The caption and the note beside each other, and beside what else is on the page.
+class CaptionLayout {
+ public:
+  CaptionLayout(Page& page, const picture::OverlayContent& content, const Box& corner, const Box& inset)
+      : page_(page), content_(content), corner_(corner), inset_(inset) {}
+
+  void add() {
+    measure();
+    place_as_usual();
+    if (!caption_.empty()) page_.out.covered_below = 1 - caption_.y / page_.height;
+    give_way();
+    if (!caption_.empty()) {
+      add_caption(page_, content_, panel_, caption_);
+      page_.out.caption = picture_box(caption_);
+    }
+    if (!said_.empty()) {
+      add_note(page_, note_, said_);
+      page_.out.note = picture_box(said_);
+    }
+    const Box numbers = readouts_box(page_, content_, {caption_, corner_, said_});
+    add_readouts(page_, content_, numbers);
+    if (content_.label) add_label(page_, *content_.label, {caption_, corner_, said_, inset_, numbers}, around_.seen);
+  }
+
+ private:
+  /// At the top, a note in the middle and a notice over the caption, if it needs few lines; otherwise above the caption.
+  void measure() {
+    const float gap = page_.gap();
+    const float margin = page_.margin();
+    const ReadoutSizes readout = readout_sizes(page_, content_.readouts);
+    const float readouts = page_.width - margin - (content_.readouts.empty() ? 0 : readout.width + gap);
+    const float middle = page_.width / 2;
+    left_ = inset_.empty() ? margin : inset_.right() + gap;
+    const float room = content_.notice ? readouts - left_ : 2 * std::min(readouts - middle, middle - left_);
+    note_ = measure_note(page_, content_, std::max(room, page_.tx(240)));
+    note_above_ = note_.width <= room && note_.rows <= 3;
+    if (!note_above_) note_ = measure_note(page_, content_, page_.width - 2 * margin);
+    float top = inset_.empty() ? margin : inset_.below() + gap;
+    // At least one readout is placed before a long caption.
+    if (!content_.readouts.empty()) top = std::max(top, margin + 2 * readout.padding + readout.row + gap);
+    if (!note_.lines.empty()) top = note_above_ ? std::max(top, margin + note_.height + gap) : top + note_.height + gap;
+    room_ = caption_room(page_, corner_, top);
+    const float note = note_.lines.empty() ? 0 : note_.width * note_.height;
+    most_ = {room_.width, room_.height, kMostCovered * page_.width * page_.height - note};
+    panel_ = measure_caption(page_, content_, most_);
+  }
+
+  void place_as_usual() {
+    caption_ = usual_for(panel_);
+    if (note_.lines.empty()) return;
+    const float margin = page_.margin();
+    float low = page_.height - margin + page_.gap();
+    for (const Box& box : {caption_, corner_})
+      if (!box.empty()) low = std::min(low, box.y);
+    const float x = !note_.sign ? std::round((page_.width - note_.width) / 2) : note_above_ ? left_ : margin;
+    said_ = {x, note_above_ ? margin : low - page_.gap() - note_.height, note_.width, note_.height};
+  }
+
+  [[nodiscard]] Box usual_for(const CaptionPanel& panel) const {
+    return panel.height > 0 ? Box{room_.x, room_.below() - panel.height, panel.width, panel.height} : Box{};
+  }
+
+  /// The note gives way first: it is smaller.
+  void give_way() {
+    const float margin = page_.margin();
+    around_.bounds = {margin, margin, page_.width - 2 * margin, page_.height - 2 * margin};
+    around_.fixed = {corner_, inset_, readouts_box(page_, content_, {corner_})};
+    around_.gap = page_.gap();
+    around_.away = page_.gap();
+    const Box whole{0, 0, page_.width, page_.height};
+    for (const picture::PictureBox& box : content_.keep_off) {
+      const Box seen{box.left, box.top, box.right - box.left, box.bottom - box.top};
+      if (overlap(seen, whole) && around_.seen.size() < kMostSeen) around_.seen.push_back(seen);
+    }
+    if (!said_.empty() && (content_.note_at || !around_.is_seen_beside(said_))) {
+      around_.fixed.push_back(caption_);
+      said_ = moved(said_, content_.note_at);
+      around_.fixed.pop_back();
+    }
+    around_.fixed.push_back(said_);
+    if (!caption_.empty() && (content_.caption_at || !around_.is_seen_beside(caption_))) move_caption();
+  }
+
+  /// As it was in the last picture, or as usual, or elsewhere.
+  [[nodiscard]] Box moved(const Box& usual, const std::optional<picture::PictureBox>& last) const {
+    const auto kept = where_it_was(usual, last);
+    if (kept && around_.is_seen_beside(*kept)) return *kept;
+    if (around_.is_seen_beside(usual)) return usual;
+    if (const auto place = free_place(around_, usual)) return *place;
+    return least_covering_place(around_, usual).value_or(usual);
+  }
+
+  /// Its last place, if a panel of this size was there.
+  [[nodiscard]] std::optional<Box> where_it_was(const Box& usual,
+                                                const std::optional<picture::PictureBox>& last) const {
+    if (!last) return {};
+    const Box box{last->left, last->top, last->right - last->left, last->bottom - last->top};
+    const bool same = std::abs(box.width - usual.width) < 1 && std::abs(box.height - usual.height) < 1;
+    const bool free = std::ranges::none_of(around_.fixed, [&](const Box& other) { return overlap(box, other); });
+    return same && free ? std::optional(Box{box.x, box.y, usual.width, usual.height}) : std::nullopt;
+  }
+
+  /// The whole panel elsewhere, or else narrower and lower ones, whose texts have more pages.
+  void move_caption() {
+    const Box usual = caption_;
+    std::vector<CaptionPanel> panels{panel_};
+    const auto take = [&](std::size_t i, const Box& box) {
+      panel_ = panels[i];
+      caption_ = box;
+    };
+    for (const auto& [width, lines] : kSmallerPanels) {
+      CaptionLimits most = most_;
+      most.width = std::round(width * panel_.width);
+      most.lines = lines;
+      most.least_width = most.width;
+      panels.push_back(measure_caption(page_, content_, most));
+    }
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const auto kept = where_it_was(usual_for(panels[i]), content_.caption_at);
+      if (kept && around_.is_seen_beside(*kept)) return take(i, *kept);
+    }
+    if (around_.is_seen_beside(usual)) return;
+    for (std::size_t i = 0; i < panels.size(); ++i)
+      if (const auto place = free_place(around_, usual_for(panels[i]))) return take(i, *place);
+    const Box least = usual_for(panels.back());
+    if (const auto place = least_covering_place(around_, least)) take(panels.size() - 1, *place);
+  }
+
+  Page& page_;
+  const picture::OverlayContent& content_;
+  Box corner_, inset_;
+  Note note_;
+  bool note_above_ = false;
+  float left_ = 0;  ///< of a notice at the top
+  Box room_;        ///< of the caption, usually
+  CaptionLimits most_;
+  CaptionPanel panel_;
+  Surroundings around_;
+  Box caption_, said_;
+};
 
 }  // namespace
 
@@ -436,7 +417,7 @@ OverlayLayout lay_out(const picture::OverlayContent& content, picture::PixelSize
     lay_out_pose(page, *content.pose, corner);
   } else {
     const Box code = content.code ? add_code(page, *content.code, corner) : Box();
-    lay_out_captions(page, content, united(corner, code), inset);
+    CaptionLayout(page, content, united(corner, code), inset).add();
   }
   return std::move(page.out);
 }

@@ -1,5 +1,7 @@
 // Layout of the overlay: a caption panel at the lower left, buttons at the lower right, readouts at the upper right, a
-// note at the top; or one panel, of a question or of a pose to show. Nothing overlaps or leaves the picture; too many words become smaller.
+// note at the top; or one panel, of a question or of a pose to show. Nothing overlaps or leaves the picture. Caption and note together
+// cover kMostCovered of it at most, and nothing of OverlayContent::keep_off where there is another place; a long text turns pages. Words
+// become smaller only where not even a line has room.
 // Pure: content and size in, shapes and lines of text out. Pixels, origin in the upper left corner; colours are sRGB
 // with straight alpha.
 #pragma once
@@ -45,12 +47,17 @@ struct OverlayTarget {
   picture::OverlayAction action;
 };
 
+/// Share of the picture's area that caption and note cover at most.
+inline constexpr float kMostCovered = 0.25F;
+
 struct OverlayLayout {
   picture::PixelSize size;           ///< of the picture
   std::vector<OverlayShape> shapes;  ///< drawn first, in order
   std::vector<OverlayText> texts;
   std::vector<OverlayTarget> targets;  ///< none lies over another
-  float covered_below = 0;  ///< share of the height from the bottom to the caption's upper edge; 0: no caption
+  float covered_below =
+      0;  ///< share of the height from the bottom to the caption's upper edge, in its usual place; 0: no caption
+  std::optional<picture::PictureBox> caption, note;  ///< where they are; none: there is none
 };
 
 /// Width of a line, in pixels.

@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "server/base/math.hpp"
+#include "tests/unit/draw/text/some_overlay.hpp"
 
 namespace mechane::draw {
 namespace {
@@ -126,134 +127,6 @@ TEST(OverlayLayout, dots_tell_what_is_done) {
   EXPECT_EQ(golden(3), 3);
 }
 
-struct Extent {
-  float left, top, right, bottom;
-  std::string what;
-};
-
-bool overlap(const Extent& a, const Extent& b) {
-  constexpr float kTouch = 0.5F;
-  return a.left + kTouch < b.right && b.left + kTouch < a.right && a.top + kTouch < b.bottom &&
-         b.top + kTouch < a.bottom;
-}
-
-/// From a capital's head to the line: what two lines must not share.
-std::vector<Extent> words_of(const OverlayLayout& layout, const MeasureText& measure) {
-  std::vector<Extent> extents;
-  for (const OverlayText& text : layout.texts) {
-    const auto size = static_cast<float>(text.size_px);
-    extents.push_back({text.x, text.baseline - 0.74F * size, text.x + measure(text.face, text.size_px, text.text),
-                       text.baseline + 0.2F * size, text.text});
-  }
-  return extents;
-}
-
-std::vector<Extent> targets_of(const OverlayLayout& layout) {
-  std::vector<Extent> extents;
-  for (const OverlayTarget& t : layout.targets)
-    extents.push_back({t.x, t.y, t.x + t.width, t.y + t.height, "target " + t.action.value});
-  return extents;
-}
-
-Extent extent_of(const OverlayShape& s) {
-  return {s.x, s.y, s.x + s.width, s.y + s.height, "shape"};
-}
-
-/// Shapes of the panels' own colour: panels, the note, the corner's buttons. With high contrast some are faces within frames.
-std::vector<Extent> panels_of(const OverlayLayout& layout, bool high_contrast) {
-  std::vector<Extent> extents;
-  for (const OverlayShape& shape : layout.shapes) {
-    if (!high_contrast && shape.colour.w() == 0.80F) extents.push_back(extent_of(shape));
-  }
-  return extents;
-}
-
-bool within(const Extent& a, const Extent& b) {
-  return a.left >= b.left && a.top >= b.top && a.right <= b.right && a.bottom <= b.bottom;
-}
-
-/// What is wrong with a layout; empty: nothing.
-std::string fault_of(const OverlayLayout& layout, picture::PixelSize size, const MeasureText& measure,
-                     bool high_contrast) {
-  const auto width = static_cast<float>(size.width);
-  const auto height = static_cast<float>(size.height);
-  std::vector<Extent> all = words_of(layout, measure);
-  const std::vector<Extent> targets = targets_of(layout);
-  for (const std::vector<Extent>& kind : {all, targets, panels_of(layout, high_contrast)}) {
-    for (std::size_t i = 0; i < kind.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (overlap(kind[i], kind[j])) return "'" + kind[i].what + "' lies over '" + kind[j].what + "'";
-      }
-    }
-  }
-  for (const Extent& words : all) {
-    for (const Extent& target : targets) {
-      if (overlap(words, target) && !within(words, target)) return "'" + words.what + "' sticks out of its button";
-    }
-  }
-  all.insert(all.end(), targets.begin(), targets.end());
-  for (const OverlayShape& shape : layout.shapes)
-    all.push_back(extent_of(shape));
-  for (const Extent& e : all) {
-    if (e.left < -0.5F || e.top < -0.5F || e.right > width + 0.5F || e.bottom > height + 0.5F)
-      return "'" + e.what + "' runs out of the picture";
-  }
-  return {};
-}
-
-/// Letters of real fonts, Greek ones too.
-const MeasureText& real_letters() {
-  static const auto typesetter = *Typesetter::create(default_font_folder());
-  static const MeasureText measure = [](Face face, int px, std::string_view text) {
-    return typesetter->width(face, px, text);
-  };
-  return measure;
-}
-
-picture::OverlayButton button_of(picture::OverlayAction::Kind kind, const std::string& text,
-                                 const std::string& value = "") {
-  picture::OverlayButton button;
-  button.action.kind = kind;
-  button.action.value = value;
-  button.text = text;
-  return button;
-}
-
-/// As wide in the first case as in the last.
-template <class T>
-T between(T least, T most) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange<T>(least, most + 1));
-}
-
-std::string some_words(std::size_t least, std::size_t most) {
-  static const std::vector<std::string> kWords{"νερό",      "κοχλίας",       "η",
-                                               "σιγά-σιγά", "the",           "Αρχιμήδης",
-                                               "στρέβλωση", "counterweight", "ανεμοστρόβιλος",
-                                               "drum",      "Ἡρωνας",        "ηλεκτροεγκεφαλογράφημα"};
-  std::string text;
-  const auto count = between(least, most);
-  for (std::size_t i = 0; i < count; ++i)
-    text += (i > 0 ? " " : "") + kWords[between<std::size_t>(0, kWords.size() - 1)];
-  return text;
-}
-
-picture::PixelSize some_size() {
-  return *rc::gen::element(picture::PixelSize{1280, 720}, picture::PixelSize{1920, 1080}, picture::PixelSize{720, 1280},
-                           picture::PixelSize{640, 720}, picture::PixelSize{640, 360}, picture::PixelSize{1280, 360},
-                           picture::PixelSize{1080, 1920}, picture::PixelSize{1024, 768},
-                           picture::PixelSize{3840, 2160}, picture::PixelSize{2560, 720});
-}
-
-void add_some_corner(picture::OverlayContent& content) {
-  if (*rc::gen::arbitrary<bool>()) content.corner.push_back(button_of(picture::OverlayAction::Kind::home, "Χωριό"));
-  const int languages = between(0, 2);
-  for (int i = 0; i < languages; ++i)
-    content.corner.push_back(button_of(picture::OverlayAction::Kind::language, "ΕΛ", std::to_string(i)));
-  content.style.text_scale = *rc::gen::element(1.0F, picture::kLargeText);
-  content.style.high_contrast = *rc::gen::arbitrary<bool>();
-  if (between(0, 2) == 0) content.note = "Μια στιγμή, το έκθεμα συνεχίζει αμέσως …";
-}
-
 RC_GTEST_PROP(OverlayLayoutOfAnything, captions_lie_over_nothing_and_within_the_picture, ()) {
   picture::OverlayContent content;
   add_some_corner(content);
@@ -261,17 +134,17 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, captions_lie_over_nothing_and_within_the_
   content.goal = some_words(0, 20);
   content.caption = some_words(0, 40);
   content.hint = some_words(0, 20);
-  content.steps_total = between(0U, 19U);
-  content.steps_done = between(0U, content.steps_total);
+  content.steps_total = from_to(0U, 19U);
+  content.steps_done = from_to(0U, content.steps_total);
   const std::vector<picture::Readout> readouts{{"Νερό", "12,4", "λίτρα", 0.6, "20"},
                                                {"Ταχύτητα", "31", "στρ./λεπτό", 0.5, "60"},
                                                {"Θερμοκρασία", "100", "°C", 0.5, "100"},
                                                {"Δύναμη", "-31,5", "νιούτον", 1, "50"}};
-  content.readouts.assign(readouts.begin(), readouts.begin() + between(0, 4));
+  content.readouts.assign(readouts.begin(), readouts.begin() + from_to(0, 4));
   for (picture::Readout& readout : content.readouts)
-    if (between(0, 2) == 0) readout.named = true, readout.label = some_words(1, 8), readout.begin = "-1000";
-  if (between(0, 1) == 0)  // the longest words that there are
-    content.notice = {picture::OverlayNotice::Sign(between(0, 5)), "Το γάντι δεν είναι συνδεδεμένο",
+    if (from_to(0, 2) == 0) readout.named = true, readout.label = some_words(1, 8), readout.begin = "-1000";
+  if (from_to(0, 1) == 0)  // the longest words that there are
+    content.notice = {picture::OverlayNotice::Sign(from_to(0, 5)), "Το γάντι δεν είναι συνδεδεμένο",
                       *rc::gen::arbitrary<bool>() ? "Πιάστε την με το χέρι σας ή ενημερώστε το προσωπικό." : ""};
   const picture::PixelSize size = some_size();
   const std::string inset = "Από κοντά";
@@ -293,14 +166,14 @@ RC_GTEST_PROP(OverlayLayoutOfAnything, questions_lie_over_nothing_and_within_the
   panel.scale = *rc::gen::arbitrary<bool>();
   panel.low = panel.scale ? some_words(1, 4) : "";
   panel.high = panel.scale ? some_words(1, 4) : "";
-  const int answers = between(0, panel.scale ? 10 : 6);
+  const int answers = from_to(0, panel.scale ? 10 : 6);
   for (int i = 0; i < answers; ++i) {
     const std::string name = std::to_string(i + 1);
     panel.answers.push_back(
         button_of(picture::OverlayAction::Kind::answer, panel.scale ? name : some_words(1, 8), name));
   }
   panel.leave = button_of(picture::OverlayAction::Kind::skip, "Παράλειψη");
-  panel.questions = between(1U, 5U);
+  panel.questions = from_to(1U, 5U);
   content.panel = panel;
   const picture::PixelSize size = some_size();
   const OverlayLayout layout = lay_out(content, size, real_letters());
@@ -315,9 +188,9 @@ picture::OverlayPose some_pose() {
   pose.text = some_words(1, 6);
   pose.more = some_words(0, 9);
   pose.again = some_words(0, 9);
-  pose.held = static_cast<float>(between(0, 10)) / 10;
+  pose.held = static_cast<float>(from_to(0, 10)) / 10;
   pose.total = 3;
-  pose.done = between(0U, 3U);
+  pose.done = from_to(0U, 3U);
   if (pose.done < 3) pose.drawing = {{{-0.4F, 0.3F}, {0.4F, -0.3F}, 0.2F, 0}, {{0, 0}, {0, 0.5F}, 0.1F, 1}};
   return pose;
 }
