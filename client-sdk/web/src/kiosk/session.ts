@@ -111,7 +111,10 @@ export class KioskSession {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
     this.connection = new Connection(`${scheme}://${location.host}${this.address(`/ws/kiosk/${encodeURIComponent(kiosk)}`)}`, {
       opened: () => this.goOn(true),
-      closed: () => this.goOn(false),
+      closed: () => {
+        this.language ||= this.state.overlay?.language ?? '';  // its visitor goes on reading in it
+        this.goOn(false);
+      },
       text: (json) => this.hearText(json),
       bytes: (bytes) => this.hearFrame(bytes),
     });

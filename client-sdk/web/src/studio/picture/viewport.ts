@@ -315,10 +315,11 @@ export class Viewport {
   };
   /** Of what has just been drawn: the canvas has it until this task ends. */
   private keepPicture(): void {
+    const { width, height } = this.canvas;
+    if (width === 0 || height === 0) return;  // another part of the page is shown
     this.pictured = true;
     const small = document.createElement('canvas');
     [small.width, small.height] = [kSmall.width, kSmall.height];
-    const { width, height } = this.canvas;
     const scale = Math.min(width / small.width, height / small.height);
     const [w, h] = [small.width * scale, small.height * scale];
     small.getContext('2d')!.drawImage(this.canvas, (width - w) / 2, (height - h) / 2, w, h, 0, 0, small.width, small.height);
