@@ -9,6 +9,7 @@ const origin = await gateway.start();
 // Small: the processor draws.
 const { browser, page, errors } = await openBrowser({ viewport: { width: 1100, height: 620 }, locale: 'en-GB' });
 
+page.setDefaultTimeout(90_000);
 const field = (id) => `[data-field="${id}"] input`;
 const sent = () => gateway.asked.filter((one) => one.path.endsWith('/commands')).at(-1)?.body.commands;
 const saved = () => page.waitForSelector('.saved:text-is("Saved")');
