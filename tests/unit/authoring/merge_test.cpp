@@ -258,7 +258,7 @@ std::string with_coins() {
 
 TEST_F(MergeFiles, CopiesOfABodyThatIsRenamedFollowIt) {
   const std::string file = write("coins.x3d", with_coins());
-  const auto merged = merge_files({file, file}, folder / "in" / "both.x3d");
+  const auto merged = merge_files(std::vector{file, file}, folder / "in" / "both.x3d");
   ASSERT_TRUE(merged) << merged.error().to_string();
   for (const char* renamed : {"\"COIN_2-*\"", "\"COIN_2-3.speed\"", "'object:COIN_2-2'"})
     EXPECT_NE(merged->text.find(renamed), std::string::npos) << renamed;
