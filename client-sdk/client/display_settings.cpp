@@ -120,9 +120,10 @@ constexpr SettingKind kPhoneCode{{"phone-code", "letters, digits, - and _, or no
 constexpr std::array<std::string_view, 2> kLanguages{"el", "en"};
 constexpr std::array<std::string_view, 3> kAsks{"none", "after", "both"};
 constexpr std::array<std::string_view, 5> kQualities{"auto", "high", "medium", "low", "cached"};
+constexpr std::array<std::string_view, 4> kHands{"light", "medium", "dark", "glove"};
 constexpr int kMostSeconds = static_cast<int>(kDay_s);
 
-constexpr std::array<SettingKind, 15> kSettings{{
+constexpr std::array<SettingKind, 16> kSettings{{
     number_setting<&DisplaySettings::volume, 0, 1>("volume", "0 to 1"),
     switch_setting<&DisplaySettings::muted>("mute"),
     word_setting<&DisplaySettings::language, kLanguages>("language", "el, en"),
@@ -133,6 +134,7 @@ constexpr std::array<SettingKind, 15> kSettings{{
     switch_setting<&DisplaySettings::attract>("attract"),
     number_setting<&DisplaySettings::attract_after_s, 5, kMostSeconds>("attract-after", "5 to 86400 seconds"),
     word_setting<&DisplaySettings::quality, kQualities>("quality", "auto, high, medium, low, cached"),
+    word_setting<&DisplaySettings::hand, kHands>("hand", "light, medium, dark, glove"),
     word_setting<&DisplaySettings::sign, kSigns>("sign", "none, closed, maintenance"),
     message_setting<&DisplaySettings::message_el>("message-el"),
     message_setting<&DisplaySettings::message_en>("message-en"),

@@ -20,6 +20,7 @@ class AttractLoop {
 
   /// Starts from the beginning.
   void rewind() { recorded_.rewind(); }
+  void show_hands(scene::HandLook look) { world_.show_hands(look); }
   /// Advances to `now`. True when other assets are needed than before: everything that was uploaded is to be replaced.
   [[nodiscard]] bool advance(TimePoint now);
   /// Only after advance() has returned true.

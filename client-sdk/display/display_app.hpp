@@ -45,6 +45,7 @@ struct DisplayOptions {
   draw::RendererSettings renderer;
   visit::AskWhen ask = visit::AskWhen::after;  ///< an activity's questions
   picture::OverlayStyle overlay;               ///< at the start; keys change it
+  std::string hand = "medium";                 ///< how drawn hands look: a name of scene::hand_look_names()
   bool forces = false;                         ///< shows arrows of the forces on hands; at the start, a key changes it
   double home_after_s = 0;                     ///< go home after this time without a motion or click; 0: never
   std::string attract;                         ///< file of a recording that is shown while nobody is there; empty: none

@@ -90,6 +90,7 @@ Expected<void> DisplayLoop::tend_kiosk(TimePoint now) {
   if (desk_.take_requests(visitor_.style())) {
     const client::DisplaySettings& requested = desk_.settings();
     visitor_.change(visit::panel_settings(requested));
+    visitor_.show_hands(requested.hand);
     presenter_.soundtrack().set_levels(requested.volume, requested.silent());
     if (auto ok = presenter_.set_quality(requested.quality); !ok) return ok;
   }

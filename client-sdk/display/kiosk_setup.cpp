@@ -34,6 +34,7 @@ client::DisplaySettings settings_at_start(const DisplayOptions& options) {
   settings.attract = !options.attract.empty();
   settings.attract_after_s = options.attract_after_s;
   settings.quality = options.quality;
+  settings.hand = options.hand;
   return settings;
 }
 

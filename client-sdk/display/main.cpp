@@ -117,6 +117,12 @@ void add_options(CLI::App& app, display::DisplayOptions& o, std::string& size) {
   app.add_flag_callback(
       "--large-text", [&o] { o.overlay.text_scale = picture::kLargeText; }, "make words 1.35 times as large; key +");
   app.add_flag("--high-contrast", o.overlay.high_contrast, "white and yellow words on black; key C");
+  std::vector<std::string> looks;
+  for (const auto& [name, look] : scene::hand_look_names())
+    looks.emplace_back(name);
+  app.add_option("--hand", o.hand, "how drawn hands look: skin, or a glove of white cotton")
+      ->check(CLI::IsMember(looks))
+      ->capture_default_str();
   app.add_flag("--force-arrows", o.forces, "show the force on each hand as an arrow; key F");
   app.add_option("--assets", o.assets,
                  "folder or address to which mesh files are relative: http://server/scenario, or http://server:8000/ "

@@ -124,6 +124,13 @@ void Presenter::make_room(picture::RenderScene& scene, TimePoint now) {
   scene.camera.room_below = caption_room_.room_below();
 }
 
+/// Words of both eyes' pictures are in the same place, and a thing is not: they keep off both of its places.
+void Presenter::keep_words_off(picture::RenderScene& scene, TimePoint now) {
+  const picture::PixelSize eye = picture::seen_size(options_.stereo, context_.size());
+  scene.overlay.keep_off = picture::boxes_of(scene, options_.stereo, eye);
+  caption_history_.tell(scene.overlay, eye, now);
+}
+
 Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
   const auto nothing = [] { return std::optional<Duration>(); };
   const TimePoint began = clock_.now();
@@ -140,6 +147,7 @@ Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
     return nothing();
   }
   make_room(scene, now);
+  keep_words_off(scene, now);
   if (window_ != nullptr) renderer_->begin_at_row(window_->first_row());
   if (auto drawn = draw_measured(scene, size, now); !drawn) return survive(drawn.error()).map(nothing);
   if (options_.offscreen) {
@@ -148,6 +156,7 @@ Expected<std::optional<Duration>> Presenter::draw(TimePoint now) {
     renderer_->copy_to_window(size);
   }
   context_.present();
+  caption_history_.see(renderer_->overlay());
   panel_shown_ = scene.overlay.panel.has_value();
   hear(scene.camera, now);
   ++frames_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client-sdk/display/caption_history.hpp"
 #include "client-sdk/display/caption_room.hpp"
 #include "client-sdk/display/display_app.hpp"
 #include "client-sdk/display/last_picture.hpp"
@@ -55,6 +56,7 @@ class Presenter {
   [[nodiscard]] picture::RenderScene compose(TimePoint now);
   void name_what_is_meant(picture::RenderScene& scene) const;
   void make_room(picture::RenderScene& scene, TimePoint now);
+  void keep_words_off(picture::RenderScene& scene, TimePoint now);
   [[nodiscard]] Expected<void> draw_measured(const picture::RenderScene& scene, picture::PixelSize size, TimePoint now);
   void hear(const picture::Camera& ears, TimePoint now);
   [[nodiscard]] bool shows_live_world() const;
@@ -76,6 +78,7 @@ class Presenter {
   SystemClock clock_;
   Soundtrack soundtrack_;
   CaptionRoom caption_room_;
+  CaptionHistory caption_history_;
   scene::StepView step_view_;
   bool panel_shown_ = false;  ///< in the last picture
   std::string told_draw_;

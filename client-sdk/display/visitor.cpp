@@ -29,6 +29,7 @@ Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std:
       forces_shown_(options.forces),
       language_(options.language) {
   news_.world().show_forces(forces_shown_);
+  show_hands(options.hand);
   // A recording cannot be touched.
   if (!options.touch || window_ == nullptr || !options.source.play.empty()) return;
   if (hand)
@@ -39,6 +40,12 @@ Visitor::Visitor(const DisplayOptions& options, Window* window, News& news, std:
 
 void Visitor::forget_world() {
   if (pointer_) pointer_->forget_world();
+}
+
+void Visitor::show_hands(const std::string& look) {
+  const scene::HandLook shown = scene::hand_look_of(look).value_or(scene::HandLook::medium);
+  news_.world().show_hands(shown);
+  if (attract_ != nullptr) attract_->show_hands(shown);
 }
 
 void Visitor::take(const LastPicture& last, const SceneNow& scene, TimePoint now) {

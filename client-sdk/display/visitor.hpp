@@ -37,6 +37,9 @@ class Visitor {
   /// Applies settings that were requested from another machine.
   void change(const visit::VisitorPanelSettings& settings) { panel_.change(settings); }
 
+  /// How hands look in all that is shown; a name of scene::hand_look_names().
+  void show_hands(const std::string& look);
+
   /// Adds the visitor's buttons and panels, and the pointer's hints; no panel beside a pose that is asked for. Not for an invitation.
   void write(picture::RenderScene& scene, const LastPicture& last, TimePoint now) const;
 

@@ -29,6 +29,13 @@ struct Occluder {
   float radius_m = 0;
 };
 
+/// What visitors look at while they work: a hand, what it holds or can take, where that belongs. Words do not cover it.
+struct SeenThing {
+  std::vector<Vec3f> points_W;     ///< its outline lies within these,
+  float around_m = 0;              ///< enlarged by this
+  std::optional<Vec3f> about_W{};  ///< of a large thing only what is near this point
+};
+
 /// A close-up in a corner of the picture, for what the main view shows too small. Flat: the same for both eyes.
 struct Inset {
   Camera camera;
@@ -49,7 +56,8 @@ struct RenderScene {
   Eigen::AlignedBox3f shadow_box_W;       ///< contains all that casts shadows
   Eigen::AlignedBox3f focus_box_W;        ///< where shadows are sharpest; empty: everywhere equally sharp
   Camera camera;
-  Eigen::AlignedBox3d work_W;  ///< where hands work in this step; empty: nowhere
+  Eigen::AlignedBox3d work_W;   ///< where hands work in this step; empty: nowhere
+  std::vector<SeenThing> seen;  ///< the most important first
   Sun sun;
   bool sky = true;                             ///< false: a black sky, and only the sun's light
   std::optional<float> ground_height_m;        ///< an endless plain of dry earth at this height

@@ -35,6 +35,52 @@ double depth_of(const Sight& sight, const Vec3& p_WQ) {
   return -sight.view.V_CW.row(2).cast<double>().dot(p_WQ.homogeneous());
 }
 
+std::optional<PictureBox> box_of(const Sight& sight, const SeenThing& thing) {
+  /// How much of a large thing is kept clear, as a share of the picture's height.
+  constexpr float kNear = 0.14F;
+  const auto height = static_cast<float>(sight.picture.height), width = static_cast<float>(sight.picture.width);
+  Eigen::AlignedBox2f box;
+  for (const Vec3f& p_W : thing.points_W) {
+    const auto pixel = pixel_of(sight, p_W.cast<double>());
+    if (!pixel) continue;
+    // The frustum's half height at this depth is 1 / P(1, 1) of it.
+    const auto depth_m = static_cast<float>(depth_of(sight, p_W.cast<double>()));
+    const float around = thing.around_m * sight.view.P(1, 1) / depth_m * height / 2;
+    const Eigen::Vector2f at(static_cast<float>(pixel->x), static_cast<float>(pixel->y));
+    box.extend(Eigen::AlignedBox2f(at - Eigen::Vector2f::Constant(around), at + Eigen::Vector2f::Constant(around)));
+  }
+  if (thing.about_W && !box.isEmpty()) {
+    const auto pixel = pixel_of(sight, thing.about_W->cast<double>());
+    if (!pixel) return {};
+    const Eigen::Vector2f at(static_cast<float>(pixel->x), static_cast<float>(pixel->y));
+    const Eigen::Vector2f reach = Eigen::Vector2f::Constant(kNear * height);
+    box = box.intersection({at - reach, at + reach});
+  }
+  box = box.intersection(Eigen::AlignedBox2f(Eigen::Vector2f::Zero(), Eigen::Vector2f(width, height)));
+  if (box.isEmpty()) return {};
+  return PictureBox{box.min().x(), box.min().y(), box.max().x(), box.max().y()};
+}
+
+std::vector<PictureBox> boxes_of(const RenderScene& scene, Stereo stereo, PixelSize seen_size) {
+  std::vector<PictureBox> boxes;
+  if (seen_size.width < 2 || seen_size.height < 2) return boxes;
+  std::vector<Sight> sights;
+  for (const Eye eye : eyes_of(stereo))
+    sights.push_back({eye_view(scene.camera, eye, aspect_of(seen_size)), seen_size});
+  for (const SeenThing& thing : scene.seen) {
+    std::optional<PictureBox> both;
+    for (const Sight& sight : sights) {
+      const auto box = box_of(sight, thing);
+      if (!box) continue;
+      both = !both ? *box
+                   : PictureBox{std::min(both->left, box->left), std::min(both->top, box->top),
+                                std::max(both->right, box->right), std::max(both->bottom, box->bottom)};
+    }
+    if (both) boxes.push_back(*both);
+  }
+  return boxes;
+}
+
 Vec3 point_at(const Sight& sight, PixelPlace place, double depth_m) {
   const SightRay ray = ray_through(sight, place);
   const Vec3 ahead_W = -sight.view.V_CW.block<1, 3>(2, 0).cast<double>().transpose().normalized();

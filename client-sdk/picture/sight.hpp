@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "client-sdk/picture/camera.hpp"
 #include "client-sdk/picture/pixels.hpp"
+#include "client-sdk/picture/render_scene.hpp"
 #include "client-sdk/picture/stereo.hpp"
 
 namespace mechane::picture {
@@ -35,6 +37,11 @@ struct SeenPlace {
 [[nodiscard]] std::optional<PixelPlace> pixel_of(const Sight& sight, const Vec3& p_WQ);
 /// Distance along the direction of view, metres; below 0: behind the eye.
 [[nodiscard]] double depth_of(const Sight& sight, const Vec3& p_WQ);
+/// Where a thing is in the picture, pixels; of a large one, what is near the point that it is about. None: it is behind the eye, or beside the
+/// picture.
+[[nodiscard]] std::optional<PictureBox> box_of(const Sight& sight, const SeenThing& thing);
+/// Where RenderScene::seen is in a picture of that size, in their order; for two eyes, boxes around both of a thing's places.
+[[nodiscard]] std::vector<PictureBox> boxes_of(const RenderScene& scene, Stereo stereo, PixelSize seen_size);
 /// The point of a pixel's ray at this depth.
 [[nodiscard]] Vec3 point_at(const Sight& sight, PixelPlace place, double depth_m);
 

@@ -20,6 +20,17 @@ Eigen::Affine3f placed(const Pose& X, double scale) {
   return out;
 }
 
+struct Look {
+  Eigen::Vector4f colour;
+  float roughness;
+};
+
+/// By HandLook.
+const std::array<Look, 4> kLooks{{{{0.76F, 0.49F, 0.37F, 1}, 0.50F},
+                                  {{0.58F, 0.33F, 0.22F, 1}, 0.50F},
+                                  {{0.155F, 0.075F, 0.045F, 1}, 0.45F},
+                                  {{0.70F, 0.69F, 0.66F, 1}, 0.90F}}};
+
 struct SleeveRing {
   double x, half_y, half_z;
 };
@@ -116,12 +127,27 @@ SegmentPoses hand_at_tip(const Vec3& p_WT, bool holding, const picture::Camera& 
   return X_WS;
 }
 
+const std::vector<std::pair<std::string_view, HandLook>>& hand_look_names() {
+  static const std::vector<std::pair<std::string_view, HandLook>> kNames{
+      {"light", HandLook::light}, {"medium", HandLook::medium}, {"dark", HandLook::dark}, {"glove", HandLook::glove}};
+  return kNames;
+}
+
+std::optional<HandLook> hand_look_of(std::string_view name) {
+  for (const auto& [known, look] : hand_look_names())
+    if (known == name) return look;
+  return std::nullopt;
+}
+
 HandModel::HandModel(AssetLibrary& library) {
-  picture::MaterialData skin;
-  skin.base_colour = Eigen::Vector4f(0.58F, 0.33F, 0.22F, 1);
-  skin.roughness = 0.50F;
-  skin_material_ = library.add_material(skin);
-  picture::MaterialData stale = skin;
+  for (std::size_t look = 0; look < kLooks.size(); ++look) {
+    picture::MaterialData material;
+    material.base_colour = kLooks[look].colour;
+    material.roughness = kLooks[look].roughness;
+    materials_[look] = library.add_material(material);
+  }
+  picture::MaterialData stale;
+  stale.roughness = kLooks[static_cast<std::size_t>(HandLook::medium)].roughness;
   stale.base_colour = Eigen::Vector4f(0.42F, 0.40F, 0.38F, 1);
   stale_material_ = library.add_material(stale);
   picture::MaterialData linen;
@@ -140,7 +166,8 @@ void HandModel::draw(const client::HandPose& hand, const picture::Camera& camera
   const bool glove = hand.kind == client::HandKind::glove;
   const SegmentPoses X_WS = glove ? hand.X_WS : hand_at_tip(hand.X_WS[0].p, hand.holding, camera);
   const hand::HandBuild build = glove ? build_of(X_WS) : hand::HandBuild{};
-  out.soft_bodies.push_back({HandSkin::shared().follow(X_WS, build), hand.stale ? stale_material_ : skin_material_});
+  out.soft_bodies.push_back({HandSkin::shared().follow(X_WS, build),
+                             hand.stale ? stale_material_ : materials_[static_cast<std::size_t>(look_)]});
   for (const Sleeve* sleeve : {&sleeve_, &fading_sleeve_})
     out.instances.push_back(
         {sleeve->mesh, hand.stale ? sleeve->stale : sleeve->fresh, placed(X_WS[0], build.hand_scale), true});

@@ -364,7 +364,10 @@ void SceneBuilder::add_hands(const client::Frame& frame, const client::WorldStat
     if (hand.stale) continue;
     WorkingHand& working = hands.emplace_back();
     working.holding = hand.holding;
+    picture::SeenThing& seen = out.seen.emplace_back();
+    seen.around_m = static_cast<float>(kFinger_m);
     for (const picture::Occluder& segment : std::span(out.occluders).subspan(before)) {
+      seen.points_W.push_back(segment.p_WO);
       const Vec3 p_W = segment.p_WO.cast<double>();
       working.box_W.extend(Eigen::AlignedBox3d(p_W - Vec3::Constant(kFinger_m), p_W + Vec3::Constant(kFinger_m)));
     }
@@ -377,6 +380,8 @@ void SceneBuilder::add_hands(const client::Frame& frame, const client::WorldStat
     return StandingObject{pose_of(*placed, &frame), placed->model->box_B.cast<double>()};
   };
   out.work_W = workplace(hands, presentation_->affordances, status->enabled_agents, standing);
+  for (picture::SeenThing& thing : things_at_work(hands, presentation_->affordances, status->enabled_agents, standing))
+    out.seen.push_back(std::move(thing));
 }
 
 std::optional<picture::Inset> SceneBuilder::detail(const client::WorldStatus& status) const {

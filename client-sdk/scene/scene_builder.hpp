@@ -37,6 +37,8 @@ class SceneBuilder {
   void set_language(const std::string& language);
   /// Whether hands have an arrow of their force, from the next scene on.
   void show_forces(bool shown) { forces_shown_ = shown; }
+  /// How hands look, from the next scene on.
+  void show_hands(HandLook look) { hand_.wear(look); }
   /// The scene of a frame. `frame` is null before the first one: then objects stand where the manifest has them.
   [[nodiscard]] picture::RenderScene build(const client::Frame* frame, const client::WorldStatus* status,
                                            client::LinkState link);

@@ -25,6 +25,7 @@ void ShownWorld::begin() {
   library_ = std::make_unique<AssetLibrary>([this](const std::string& uri) { return importer_->take(uri); });
   builder_ = std::make_unique<SceneBuilder>(*library_, language_, source_.worker);
   builder_->show_forces(forces_shown_);
+  builder_->show_hands(hand_look_);
   objects_.clear();
   unplaced_ = false;
   arrived_.clear();
@@ -91,6 +92,11 @@ void ShownWorld::set_language(const std::string& language) {
 void ShownWorld::show_forces(bool shown) {
   forces_shown_ = shown;
   if (builder_) builder_->show_forces(shown);
+}
+
+void ShownWorld::show_hands(HandLook look) {
+  hand_look_ = look;
+  if (builder_) builder_->show_hands(look);
 }
 
 picture::RenderScene ShownWorld::build(const client::Frame* frame, client::LinkState link) const {

@@ -47,6 +47,7 @@ class ShownWorld {
 
   void set_language(const std::string& language);
   void show_forces(bool shown);
+  void show_hands(HandLook look);
   /// `frame` may be null: then things stand where the manifest has them. Before anything is known, and while files are
   /// read, shows a calm note.
   [[nodiscard]] picture::RenderScene build(const client::Frame* frame, client::LinkState link) const;
@@ -81,6 +82,7 @@ class ShownWorld {
   AssetSource source_;
   std::string language_;
   bool forces_shown_ = false;
+  HandLook hand_look_ = HandLook::medium;
   std::string key_;
   std::string folder_;
   std::unique_ptr<MeshImporter> importer_;  ///< of the library

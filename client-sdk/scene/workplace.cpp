@@ -48,6 +48,30 @@ class Step {
     return out;
   }
 
+  [[nodiscard]] std::vector<picture::SeenThing> things_for(std::span<const WorkingHand> hands) const {
+    std::vector<picture::SeenThing> held, free;
+    for (const Affordance& affordance : affordances_) {
+      if (affordance.kind != Affordance::Kind::taken || !is_enabled(affordance)) continue;
+      const StandingObject object = standing_(affordance.object);
+      if (object.box_B.isEmpty()) continue;
+      if (hands.empty()) {
+        free.push_back(thing_about(object, object.X_WB * Vec3(object.box_B.center())));
+        add_goals(affordance.object, free);
+      }
+      for (const WorkingHand& hand : hands) {
+        const Vec3 p_W = nearest_place(object, hand.box_W.center());
+        if (!hand.holding) {
+          free.push_back(thing_about(object, p_W));
+        } else if (hand.box_W.exteriorDistance(p_W) <= kHeld_m) {
+          held.push_back(thing_about(object, p_W));
+          add_goals(affordance.object, held);
+        }
+      }
+    }
+    held.insert(held.end(), free.begin(), free.end());
+    return held;
+  }
+
  private:
   [[nodiscard]] bool is_enabled(const Affordance& affordance) const {
     return affordance.agent.empty() || std::ranges::find(enabled_, affordance.agent) != enabled_.end();
@@ -83,13 +107,33 @@ class Step {
     return affordance.base ? standing_(*affordance.base).X_WB : Pose{};
   }
 
-  void add_goals(std::uint32_t index, Box& out) const {
+  /// p_WJ of each place where an object belongs.
+  [[nodiscard]] std::vector<Vec3> goals_of(std::uint32_t index) const {
+    std::vector<Vec3> places;
     for (const Affordance& goal : affordances_) {
       const bool belongs = goal.kind == Affordance::Kind::placed || goal.kind == Affordance::Kind::brought;
-      if (!belongs || goal.object != index || !is_enabled(goal)) continue;
-      const Vec3 p_WJ = standing_at(goal) * goal.X_AJ.p;
-      out.extend(Box(p_WJ - Vec3::Constant(kAroundGoal_m), p_WJ + Vec3::Constant(kAroundGoal_m)));
+      if (belongs && goal.object == index && is_enabled(goal)) places.emplace_back(standing_at(goal) * goal.X_AJ.p);
     }
+    return places;
+  }
+
+  void add_goals(std::uint32_t index, Box& out) const {
+    for (const Vec3& p_WJ : goals_of(index))
+      out.extend(Box(p_WJ - Vec3::Constant(kAroundGoal_m), p_WJ + Vec3::Constant(kAroundGoal_m)));
+  }
+
+  void add_goals(std::uint32_t index, std::vector<picture::SeenThing>& out) const {
+    for (const Vec3& p_WJ : goals_of(index))
+      out.push_back({{p_WJ.cast<float>()}, static_cast<float>(kAroundGoal_m)});
+  }
+
+  static picture::SeenThing thing_about(const StandingObject& object, const Vec3& about_W) {
+    picture::SeenThing thing{{}, 0, about_W.cast<float>()};
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p_WQ = object.X_WB * Vec3(object.box_B.corner(static_cast<Box::CornerType>(corner)));
+      thing.points_W.emplace_back(p_WQ.cast<float>());
+    }
+    return thing;
   }
 
   std::span<const Affordance> affordances_;
@@ -102,6 +146,12 @@ class Step {
 Box workplace(std::span<const WorkingHand> hands, std::span<const Affordance> affordances,
               std::span<const std::string> enabled, const StandingObjects& standing) {
   return Step(affordances, enabled, standing).seen_with(hands);
+}
+
+std::vector<picture::SeenThing> things_at_work(std::span<const WorkingHand> hands,
+                                               std::span<const Affordance> affordances,
+                                               std::span<const std::string> enabled, const StandingObjects& standing) {
+  return Step(affordances, enabled, standing).things_for(hands);
 }
 
 }  // namespace mechane::scene

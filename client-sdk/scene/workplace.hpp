@@ -4,9 +4,11 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Dense>
 
+#include "client-sdk/picture/render_scene.hpp"
 #include <mechane/client/types.hpp>
 
 namespace mechane::scene {
@@ -29,5 +31,12 @@ using StandingObjects = std::function<StandingObject(std::uint32_t object)>;
 [[nodiscard]] Eigen::AlignedBox3d workplace(std::span<const WorkingHand> hands,
                                             std::span<const client::Affordance> affordances,
                                             std::span<const std::string> enabled, const StandingObjects& standing);
+
+/// What is seen of that: of each hand what it holds and where that belongs, or what it can take; without hands, all that can be taken and where
+/// it belongs. What is held, with its goals, comes first.
+[[nodiscard]] std::vector<picture::SeenThing> things_at_work(std::span<const WorkingHand> hands,
+                                                             std::span<const client::Affordance> affordances,
+                                                             std::span<const std::string> enabled,
+                                                             const StandingObjects& standing);
 
 }  // namespace mechane::scene

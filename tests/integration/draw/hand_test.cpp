@@ -52,5 +52,25 @@ TEST_F(DrawnPicture, a_hand_is_drawn_about_its_tip_and_throws_a_shadow) {
   }
 }
 
+TEST_F(DrawnPicture, a_hand_looks_as_it_is_asked_to) {
+  std::vector<float> bright;
+  for (const auto& [name, look] : scene::hand_look_names()) {
+    ASSERT_EQ(scene::hand_look_of(name), look);
+    HandScene with;
+    with.model.wear(look);
+    with.add_hand();
+    const picture::ImageData picture = draw(with.assets.assets(), with.scene);
+    const scene::SegmentPoses X_WS = scene::hand_at_tip(with.hand.X_WS[0].p, false, with.scene.camera);
+    const Eigen::Vector2d back = pixel_of(with.scene, X_WS[0].p);
+    bright.push_back(static_cast<float>(mean(picture, back.x(), back.y(), 2)));
+    renderer_->forget_assets();
+  }
+  EXPECT_FALSE(scene::hand_look_of("green"));
+  ASSERT_EQ(bright.size(), 4U);
+  EXPECT_GT(bright[0], bright[1] + 8) << "light";
+  EXPECT_GT(bright[1], bright[2] + 30) << "medium, dark";
+  EXPECT_GT(bright[3], bright[1] + 15) << "white cotton";
+}
+
 }  // namespace
 }  // namespace mechane::draw

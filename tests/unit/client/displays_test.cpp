@@ -56,6 +56,7 @@ TEST(DisplaySettings, what_is_out_of_its_range_is_refused_with_the_range) {
   EXPECT_THAT(refusal_of("attract-after", "4"), is_error(ErrorCode::invalid_value, 0, {"5 to 86400"}));
   EXPECT_THAT(refusal_of("quality", "best"),
               is_error(ErrorCode::invalid_value, 0, {"auto, high, medium, low, cached"}));
+  EXPECT_THAT(refusal_of("hand", "green"), is_error(ErrorCode::invalid_value, 0, {"light, medium, dark, glove"}));
   EXPECT_THAT(refusal_of("sign", "open"), is_error(ErrorCode::invalid_value, 0, {"none, closed, maintenance"}));
   for (const std::string& message : {std::string(241, 'x'), std::string("a\nb"), std::string("\xff")})
     EXPECT_THAT(refusal_of("message-el", message), is_error(ErrorCode::invalid_value, 0, {"240 bytes"})) << message;

@@ -74,5 +74,28 @@ TEST(Workplace, ATurnedThingNeedsTheHandsArc) {
   EXPECT_TRUE(turned.isApprox(Box(Vec3(-0.05, -0.25, 0), Vec3(0.25, 0.25, 0.1)), 1e-9));
 }
 
+std::vector<picture::SeenThing> things(const std::vector<WorkingHand>& hands, const std::vector<std::string>& enabled) {
+  return things_at_work(hands, affordances(), enabled, standing);
+}
+
+TEST(ThingsAtWork, AHeldThingAndItsGoalComeFirst) {
+  EXPECT_TRUE(things({}, {}).empty());
+  const std::vector<std::string> all{"take_crank", "take_beam", "post"};
+  const auto held = things({hand_near(Vec3(2.1, 0, 0), true), hand_near(Vec3(0, 0.2, 0), false)}, all);
+  ASSERT_EQ(held.size(), 4U) << "the beam, the post; crank and beam for the free hand";
+  EXPECT_EQ(held[0].points_W.size(), 8U);
+  ASSERT_TRUE(held[0].about_W);
+  EXPECT_NEAR(held[0].about_W->x(), 2.1, 1e-5) << "where it is held";
+  ASSERT_EQ(held[1].points_W.size(), 1U);
+  EXPECT_TRUE(held[1].points_W[0].isApprox(Vec3f(0, 2, 0)));
+  EXPECT_GT(held[1].around_m, 0);
+}
+
+TEST(ThingsAtWork, WithoutAHandItIsAllThatCanBeTakenAndWhereItBelongs) {
+  const auto seen = things({}, {"take_crank", "take_beam", "post"});
+  ASSERT_EQ(seen.size(), 3U);
+  EXPECT_TRUE(seen[1].about_W->isApprox(Vec3f(3, 0, 0)));
+}
+
 }  // namespace
 }  // namespace mechane::scene

@@ -32,6 +32,7 @@ struct DisplaySettings {
   bool attract = true;          ///< attract: on, off; shows the recorded visit, if one was given, while nobody is there
   double attract_after_s = 120;  ///< attract-after: 5 .. 86400 s without a visitor
   std::string quality = "auto";  ///< quality: auto, high, medium, low, cached
+  std::string hand = "medium";   ///< hand: light, medium, dark, glove; how drawn hands look
   /// sign: none, closed, maintenance; where there is one, it is all that visitors are told: no sound is heard, and the
   /// display takes no hand.
   std::string sign = "none";
