@@ -69,7 +69,7 @@ float height_of_lines(const Page& page, float lines) {
 /// Where there is little area, a narrower panel has room for two lines.
 float width_for_two_lines(const Page& page, const CaptionLimits& most) {
   const float least = most.least_width > 0 ? most.least_width : 0.5F * most.width;
-  return std::round(std::clamp(most.area / (bare_height(page) + height_of_lines(page, 2)), least, most.width));
+  return std::floor(std::clamp(most.area / (bare_height(page) + height_of_lines(page, 2)), least, most.width));
 }
 
 CaptionPanel measure_at_scale(const Page& page, const picture::OverlayContent& content, const CaptionLimits& most) {
@@ -142,7 +142,7 @@ Note measure_notice(const Page& page, const picture::OverlayNotice& notice, floa
 }
 
 /// A text without a sign; no lines: not even one fits in `area`.
-Note measure_words(const Page& page, const picture::OverlayContent& content, float most, float area) {
+Note measure_words(const Page& page, const picture::OverlayContent& content, float most, float area, std::size_t rows) {
   const std::string& text = content.note.empty() ? content.message : content.note;
   const float padding = page.tx(kNotePadding);
   const float edges = page.tx(kNoteEdges);
@@ -153,7 +153,8 @@ Note measure_words(const Page& page, const picture::OverlayContent& content, flo
     const auto lines = page.lines(Face::regular, kNoteSize, text, most - 2 * padding - mark);
     note.width = widest(page, Face::regular, kNoteSize, lines) + 2 * padding + mark;
     const std::vector<float> heights(lines.size(), page.tx(kNoteLine));
-    const auto begins = page_begins(heights, area / note.width - edges);
+    const auto begins =
+        page_begins(heights, std::min(area / note.width - edges, static_cast<float>(rows) * page.tx(kNoteLine)));
     const ShownPage shown = begins.empty() ? ShownPage{} : page_at(lines, begins, content.note_for_s);
     const auto first = lines.begin();
     note.lines.assign(first + static_cast<std::ptrdiff_t>(shown.first),
@@ -214,13 +215,14 @@ void add_caption(Page& page, const picture::OverlayContent& content, const Capti
   page.scale = wanted;
 }
 
-Note measure_note(Page& page, const picture::OverlayContent& content, float most) {
+Note measure_note(Page& page, const picture::OverlayContent& content, float most, std::size_t rows) {
   Note note;
   if (!content.notice && content.note.empty() && content.message.empty()) return note;
   const float area = kMostNote * page.width * page.height;
   const float wanted = page.scale;
   for (bool fits = false; !fits && page.scale > kLeastWords; page.scale *= kSmaller) {
-    note = content.notice ? measure_notice(page, *content.notice, most) : measure_words(page, content, most, area);
+    note =
+        content.notice ? measure_notice(page, *content.notice, most) : measure_words(page, content, most, area, rows);
     fits = !note.lines.empty() && note.width * note.height <= area;
   }
   page.scale = wanted;

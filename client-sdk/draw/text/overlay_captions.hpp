@@ -49,8 +49,8 @@ struct Note {
   std::size_t rows = 0;  ///< lines of its fullest page
 };
 
-/// At most so wide, and as high as its share of the picture allows.
-[[nodiscard]] Note measure_note(Page& page, const picture::OverlayContent& content, float most);
+/// At most so wide, and as high as its share of the picture allows. A page has at most so many rows; a notice has one page.
+[[nodiscard]] Note measure_note(Page& page, const picture::OverlayContent& content, float most, std::size_t rows = 99);
 void add_note(Page& page, const Note& note, const Box& box);
 
 }  // namespace mechane::draw

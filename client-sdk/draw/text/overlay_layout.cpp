@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "client-sdk/draw/text/overlay_captions.hpp"
 #include "client-sdk/draw/text/overlay_page.hpp"
@@ -11,10 +12,18 @@ namespace mechane::draw {
 namespace {
 
 constexpr float kLabelSize = 21;
+constexpr std::size_t kNoteRows = 3;  ///< of a note at the top, on a page
 /// More things than visitors can look at; the search for a place takes longer with each.
 constexpr std::size_t kMostSeen = 16;
-/// Where a whole caption has no place: share of its width, and lines of a page. Each is smaller than the one before.
-constexpr std::pair<float, std::size_t> kSmallerPanels[] = {{0.75F, 99}, {0.75F, 2}, {0.55F, 2}, {0.55F, 1}};
+/// A caption that gives way may be smaller: share of its width, lines of a page, and what that costs beside the costs of places. The last is
+/// the smallest.
+struct SmallerPanel {
+  float width;
+  std::size_t lines;
+  float cost;
+};
+constexpr SmallerPanel kSmallerPanels[] = {
+    {0.75F, 99, 0.1F}, {0.75F, 2, 0.2F}, {0.55F, 99, 0.25F}, {0.55F, 2, 0.3F}, {0.55F, 1, 0.6F}};
 
 /// A narrow picture has no room for labels beside the machine: the unit alone must explain the number, unless the author has named it.
 struct ReadoutSizes {
@@ -257,8 +266,8 @@ class CaptionLayout {
     const float middle = page_.width / 2;
     left_ = inset_.empty() ? margin : inset_.right() + gap;
     const float room = content_.notice ? readouts - left_ : 2 * std::min(readouts - middle, middle - left_);
-    note_ = measure_note(page_, content_, std::max(room, page_.tx(240)));
-    note_above_ = note_.width <= room && note_.rows <= 3;
+    note_ = measure_note(page_, content_, std::max(room, page_.tx(240)), kNoteRows);
+    note_above_ = note_.width <= room && note_.rows <= kNoteRows;
     if (!note_above_) note_ = measure_note(page_, content_, page_.width - 2 * margin);
     float top = inset_.empty() ? margin : inset_.below() + gap;
     // At least one readout is placed before a long caption.
@@ -297,13 +306,19 @@ class CaptionLayout {
       const Box seen{box.left, box.top, box.right - box.left, box.bottom - box.top};
       if (overlap(seen, whole) && around_.seen.size() < kMostSeen) around_.seen.push_back(seen);
     }
-    if (!said_.empty() && (content_.note_at || !around_.is_seen_beside(said_))) {
+    if (!said_.empty() && (was_away(said_, content_.note_at) || !around_.is_seen_beside(said_))) {
       around_.fixed.push_back(caption_);
       said_ = moved(said_, content_.note_at);
       around_.fixed.pop_back();
     }
     around_.fixed.push_back(said_);
-    if (!caption_.empty() && (content_.caption_at || !around_.is_seen_beside(caption_))) move_caption();
+    if (!caption_.empty() && (was_away(caption_, content_.caption_at) || !around_.is_seen_beside(caption_)))
+      move_caption();
+  }
+
+  /// Whether it was elsewhere in the last picture.
+  [[nodiscard]] static bool was_away(const Box& usual, const std::optional<picture::PictureBox>& last) {
+    return last && *last != picture_box(usual);
   }
 
   /// As it was in the last picture, or as usual, or elsewhere.
@@ -311,7 +326,7 @@ class CaptionLayout {
     const auto kept = where_it_was(usual, last);
     if (kept && around_.is_seen_beside(*kept)) return *kept;
     if (around_.is_seen_beside(usual)) return usual;
-    if (const auto place = free_place(around_, usual)) return *place;
+    if (const auto place = free_place(around_, usual)) return place->box;
     return least_covering_place(around_, usual).value_or(usual);
   }
 
@@ -325,7 +340,7 @@ class CaptionLayout {
     return same && free ? std::optional(Box{box.x, box.y, usual.width, usual.height}) : std::nullopt;
   }
 
-  /// The whole panel elsewhere, or else narrower and lower ones, whose texts have more pages.
+  /// To the cheapest place, whole, or narrower or lower with more pages.
   void move_caption() {
     const Box usual = caption_;
     std::vector<CaptionPanel> panels{panel_};
@@ -333,11 +348,10 @@ class CaptionLayout {
       panel_ = panels[i];
       caption_ = box;
     };
-    for (const auto& [width, lines] : kSmallerPanels) {
+    for (const SmallerPanel& smaller : kSmallerPanels) {
       CaptionLimits most = most_;
-      most.width = std::round(width * panel_.width);
-      most.lines = lines;
-      most.least_width = most.width;
+      most.width = most.least_width = std::round(smaller.width * panel_.width);
+      most.lines = smaller.lines;
       panels.push_back(measure_caption(page_, content_, most));
     }
     for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -345,8 +359,16 @@ class CaptionLayout {
       if (kept && around_.is_seen_beside(*kept)) return take(i, *kept);
     }
     if (around_.is_seen_beside(usual)) return;
-    for (std::size_t i = 0; i < panels.size(); ++i)
-      if (const auto place = free_place(around_, usual_for(panels[i]))) return take(i, *place);
+    float least_cost = std::numeric_limits<float>::max();
+    std::optional<std::pair<std::size_t, Box>> best;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const auto place = free_place(around_, usual_for(panels[i]));
+      const float cost = place ? place->cost + (i == 0 ? 0 : kSmallerPanels[i - 1].cost) : least_cost;
+      if (cost >= least_cost) continue;
+      least_cost = cost;
+      best = {i, place->box};
+    }
+    if (best) return take(best->first, best->second);
     const Box least = usual_for(panels.back());
     if (const auto place = least_covering_place(around_, least)) take(panels.size() - 1, *place);
   }

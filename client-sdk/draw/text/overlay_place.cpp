@@ -7,6 +7,10 @@
 namespace mechane::draw {
 namespace {
 
+/// The middle of the bounds, as shares of them: most machines stand there.
+constexpr float kMiddleFrom = 0.2F, kMiddleHigh = 0.5F;
+constexpr float kMiddleCosts = 2;  ///< to lie in it
+
 Box enlarged(const Box& box, float by) {
   return {box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by};
 }
@@ -56,7 +60,12 @@ class Places {
     }
     return found;
   }
-  [[nodiscard]] float way(const Box& box) const { return std::hypot(box.x - usual_.x, box.y - usual_.y); }
+  [[nodiscard]] float cost(const Box& box) const {
+    const Box middle{bounds_.x + kMiddleFrom * bounds_.width, bounds_.y + kMiddleFrom * bounds_.height,
+                     (1 - 2 * kMiddleFrom) * bounds_.width, kMiddleHigh * bounds_.height};
+    const float way = std::hypot(box.x - usual_.x, box.y - usual_.y) / bounds_.height;
+    return way + kMiddleCosts * shared_area(box, middle) / (box.width * box.height);
+  }
   [[nodiscard]] std::size_t size() const { return obstacles_.size(); }
   /// How much a box covers of the obstacles from the one of that index on.
   [[nodiscard]] float covered(const Box& box, std::size_t from) const {
@@ -93,17 +102,17 @@ bool Surroundings::is_seen_beside(const Box& panel) const {
   return std::ranges::none_of(seen, [&](const Box& box) { return overlap(panel, box); });
 }
 
-std::optional<Box> free_place(const Surroundings& around, const Box& usual) {
+std::optional<FreePlace> free_place(const Surroundings& around, const Box& usual) {
   const Places still(around, usual);
   // First the places that do not depend on what moves: a panel in one of these rests.
   Places all = still;
   for (const Box& box : around.seen)
     all.add(enlarged(box, around.away));
-  const auto way = [&](const Box& box) { return all.way(box); };
-  const auto calm = still.best(still.size(), [&](const Box& box) {
-    return all.covered(box, still.size()) > 0 ? std::numeric_limits<float>::max() : all.way(box);
+  auto found = still.best(still.size(), [&](const Box& box) {
+    return all.covered(box, still.size()) > 0 ? std::numeric_limits<float>::max() : all.cost(box);
   });
-  return calm ? calm : all.best(all.size(), way);
+  if (!found) found = all.best(all.size(), [&](const Box& box) { return all.cost(box); });
+  return found ? std::optional(FreePlace{*found, all.cost(*found)}) : std::nullopt;
 }
 
 std::optional<Box> least_covering_place(const Surroundings& around, const Box& usual) {
@@ -112,8 +121,8 @@ std::optional<Box> least_covering_place(const Surroundings& around, const Box& u
   for (const Box& box : around.seen)
     places.add(box);
   for (std::size_t kept = places.size();; --kept) {
-    // Area counts most, then the way from the usual place.
-    const auto cost = [&](const Box& box) { return places.covered(box, kept) + 0.001F * places.way(box); };
+    // Area counts most.
+    const auto cost = [&](const Box& box) { return places.covered(box, kept) + 0.001F * places.cost(box); };
     const auto found = places.best(kept, cost);
     if (found || kept == fixed) return found;
   }

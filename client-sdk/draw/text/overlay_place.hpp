@@ -22,8 +22,14 @@ struct Surroundings {
   [[nodiscard]] bool is_seen_beside(const Box& panel) const;
 };
 
-/// The place of a panel as large as `usual`, nearest to `usual`, over nothing. None: there is no such place.
-[[nodiscard]] std::optional<Box> free_place(const Surroundings& around, const Box& usual);
+/// A place, and what it costs: the way from the usual one, and what it covers of the middle, where machines stand. In heights of the page.
+struct FreePlace {
+  Box box;
+  float cost = 0;
+};
+
+/// The cheapest place of a panel as large as `usual`, over nothing. None: there is no such place.
+[[nodiscard]] std::optional<FreePlace> free_place(const Surroundings& around, const Box& usual);
 
 /// The same for a panel for which there is no free place: it covers the least important, and of that as little as possible. None: the
 /// fixed panels leave no place.
