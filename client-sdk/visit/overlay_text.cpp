@@ -70,7 +70,7 @@ double place_of(const client::QuantityInfo& info, double value, double end) {
   return std::clamp((as_shown(info, value) - info.range->least) / (info.range->greatest - info.range->least), 0.0, 1.0);
 }
 
-/// Decimals with which a value moves on a gauge of this length at least at each hundredth.
+/// Decimals with which a value has twenty steps or more on a gauge of this length; two at most.
 int decimals_for(double length) {
   return length >= 20 ? 0 : length >= 2 ? 1 : 2;
 }

@@ -19,6 +19,7 @@ using PreviewJson = nlohmann::json;
 constexpr std::uint32_t kDomainsThere = 230;
 constexpr double kMoved_m = 1e-3;
 constexpr double kMoved_rad = 1e-2;
+constexpr std::string_view kEdit = "edit ";  // how a server's answers to edits begin
 
 bool has_moved(const Pose& from, const Pose& to) {
   return (from.p - to.p).norm() > kMoved_m || rotation_vector(from.R.conjugate() * to.R).norm() > kMoved_rad;
@@ -285,7 +286,6 @@ Expected<void> PreviewDesk::edit(const std::string& draft, studio::PreviewDraft 
 
 /// Takes the answers to edits out of what the server has said.
 void PreviewDesk::hear_edits(Preview& preview, std::vector<std::string>& said) {
-  constexpr std::string_view kEdit = "edit ";
   for (const std::string& line : said) {
     if (!preview.edited || !line.starts_with(fmt::format("{}{} ", kEdit, preview.edited->revision))) continue;
     const std::string answer = line.substr(line.find(' ', kEdit.size()) + 1);

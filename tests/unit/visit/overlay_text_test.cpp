@@ -108,7 +108,7 @@ TEST(OverlayText, a_gauge_with_a_range_stays_as_its_author_made_it) {
   EXPECT_EQ(writer.write(status, &frame).readouts.at(0).value, "-7");
 }
 
-TEST(OverlayText, a_short_range_has_as_many_decimals_as_its_hundredths_need) {
+TEST(OverlayText, a_short_range_has_more_decimals) {
   client::WorldStatus status;
   status.quantities = {{"depth", "m"}, {"coins", ""}, {"basin", "l"}};
   for (client::QuantityInfo& quantity : status.quantities)
