@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "client-sdk/draw/text/overlay_pages.hpp"
 #include "client-sdk/draw/text/overlay_sign.hpp"
 
 namespace mechane::draw {
@@ -42,24 +41,24 @@ constexpr float kLeastWords = 0.3F;
 void break_into_lines(const Page& page, const picture::OverlayContent& content, CaptionPanel& out) {
   const Palette& c = page.colours;
   const std::array<std::pair<LineLook, const std::string*>, 3> parts{
-      {{{Face::serif, kGoalSize, c.paper, kPartGap}, &content.goal},
-       {{Face::regular, kCaptionSize, c.paper, kPartGap}, &content.caption},
-       {{Face::regular, kHintSize, c.water, kPartGap}, &content.hint}}};
+      {{{Face::serif, kGoalSize, c.paper, true}, &content.goal},
+       {{Face::regular, kCaptionSize, c.paper, true}, &content.caption},
+       {{Face::regular, kHintSize, c.water, true}, &content.hint}}};
   const float inner = out.width - 2 * page.tx(kPadding);
   for (const auto& [look, text] : parts) {
     LineLook line = look;
     for (std::string& words : page.lines(look.face, look.size, *text, inner)) {
       out.lines.push_back(std::move(words));
       out.looks.push_back(line);
-      out.heights.push_back(page.tx(line.above) + page.tx(line.size * kLineStep));
-      line.above = 0;
+      out.heights.push_back({page.tx(line.size * kLineStep), line.begins_part ? page.tx(kPartGap) : 0});
+      line.begins_part = false;
     }
   }
 }
 
 /// A panel without a page's lines.
 float bare_height(const Page& page) {
-  return 2 * page.tx(kPadding) + page.tx(kTitleLine);
+  return 2 * page.tx(kPadding) + page.tx(kTitleLine) + page.tx(kPartGap);
 }
 
 float height_of_lines(const Page& page, float lines) {
@@ -80,7 +79,7 @@ CaptionPanel measure_at_scale(const Page& page, const picture::OverlayContent& c
   const float bare = bare_height(page);
   const float room = std::min(most.height, most.area / std::max(out.width, 1.0F)) - bare;
   out.begins = page_begins(out.heights, std::min(room, height_of_lines(page, static_cast<float>(most.lines))));
-  out.height = bare + highest_page(out.heights, out.begins);
+  out.height = out.lines.empty() ? bare - page.tx(kPartGap) : bare + highest_page(out.heights, out.begins);
   return out;
 }
 
@@ -152,7 +151,7 @@ Note measure_words(const Page& page, const picture::OverlayContent& content, flo
   for (const float mark : {0.0F, page.measure(Face::bold, kMarkSize, "9/9") + padding / 2}) {
     const auto lines = page.lines(Face::regular, kNoteSize, text, most - 2 * padding - mark);
     note.width = widest(page, Face::regular, kNoteSize, lines) + 2 * padding + mark;
-    const std::vector<float> heights(lines.size(), page.tx(kNoteLine));
+    const std::vector<PageLine> heights(lines.size(), {page.tx(kNoteLine), 0});
     const auto begins =
         page_begins(heights, std::min(area / note.width - edges, static_cast<float>(rows) * page.tx(kNoteLine)));
     const ShownPage shown = begins.empty() ? ShownPage{} : page_at(lines, begins, content.note_for_s);
@@ -203,11 +202,11 @@ void add_caption(Page& page, const picture::OverlayContent& content, const Capti
   const ShownPage shown = page_at(panel.lines, panel.begins, content.caption_for_s);
   page.add_panel(box);
   add_title(page, content, box, shown.mark);
-  float at = box.y + page.tx(kPadding) + page.tx(kTitleLine);
+  float at = box.y + page.tx(kPadding) + page.tx(kTitleLine) + page.tx(kPartGap);
   // Not even a line fits where there are no pages.
   for (std::size_t i = shown.first; i < shown.last && !panel.begins.empty(); ++i) {
     const LineLook& look = panel.looks[i];
-    at += page.tx(look.above);
+    if (look.begins_part && i > shown.first) at += page.tx(kPartGap);
     page.add_text(box.x + page.tx(kPadding), at + page.tx(look.size * 1.02F), look.face, look.size, look.colour,
                   panel.lines[i]);
     at += page.tx(look.size * kLineStep);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client-sdk/draw/text/overlay_page.hpp"
+#include "client-sdk/draw/text/overlay_pages.hpp"
 
 namespace mechane::draw {
 
@@ -14,7 +15,7 @@ struct LineLook {
   Face face = Face::regular;
   float size = 0;
   Eigen::Vector4f colour = Eigen::Vector4f::Ones();
-  float above = 0;  ///< gap to the line before
+  bool begins_part = false;
 };
 
 /// A caption's panel at one width: title and dots, and under them one page of goal, caption and hint.
@@ -23,7 +24,7 @@ struct CaptionPanel {
   float width = 0, height = 0;
   std::vector<std::string> lines;  ///< of all pages
   std::vector<LineLook> looks;
-  std::vector<float> heights;  ///< with the gaps above
+  std::vector<PageLine> heights;
   std::vector<std::size_t> begins;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -16,16 +15,15 @@ std::size_t end_of(std::span<const std::size_t> begins, std::size_t page, std::s
 }
 
 /// Fills one page after the other.
-std::vector<std::size_t> filled_pages(std::span<const float> heights, float most) {
+std::vector<std::size_t> filled_pages(std::span<const PageLine> lines, float most) {
   std::vector<std::size_t> begins;
   float used = 0;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    if (heights[i] > most) return {};
-    if (i == 0 || used + heights[i] > most) {
-      begins.push_back(i);
-      used = 0;
-    }
-    used += heights[i];
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].height > most) return {};
+    used += lines[i].gap + lines[i].height;
+    if (i > 0 && used <= most) continue;
+    begins.push_back(i);
+    used = lines[i].height;
   }
   return begins;
 }
@@ -39,20 +37,22 @@ float time_to_read_s(std::span<const std::string> lines) {
 
 }  // namespace
 
-float highest_page(std::span<const float> heights, std::span<const std::size_t> begins) {
+float highest_page(std::span<const PageLine> lines, std::span<const std::size_t> begins) {
   float most = 0;
   for (std::size_t page = 0; page < begins.size(); ++page) {
-    const auto lines = heights.subspan(begins[page], end_of(begins, page, heights.size()) - begins[page]);
-    most = std::max(most, std::accumulate(lines.begin(), lines.end(), 0.0F));
+    float height = -lines[begins[page]].gap;
+    for (std::size_t i = begins[page]; i < end_of(begins, page, lines.size()); ++i)
+      height += lines[i].gap + lines[i].height;
+    most = std::max(most, height);
   }
   return most;
 }
 
-std::vector<std::size_t> page_begins(std::span<const float> heights, float most) {
-  std::vector<std::size_t> begins = filled_pages(heights, most);
+std::vector<std::size_t> page_begins(std::span<const PageLine> lines, float most) {
+  std::vector<std::size_t> begins = filled_pages(lines, most);
   while (begins.size() > 1) {
     // A little less than the highest page has: the lines that it loses go to the others, until these are full.
-    std::vector<std::size_t> flatter = filled_pages(heights, highest_page(heights, begins) - 0.5F);
+    std::vector<std::size_t> flatter = filled_pages(lines, highest_page(lines, begins) - 0.5F);
     if (flatter.size() != begins.size()) break;
     begins = std::move(flatter);
   }

@@ -186,11 +186,11 @@ RC_GTEST_PROP(OverlayCaptions, every_word_is_on_one_page_and_stays_until_it_is_r
     Reading page = seen_at(0);
     std::string words = page.words;
     float from_s = 0;
-    for (float at_s = 2; words != all && at_s < 600; at_s += 2) {
+    for (float at_s = 3.5F; words != all && at_s < 600; at_s += 3.5F) {
       const Reading now = seen_at(at_s);
       if (now.mark == page.mark) continue;
       const float least_s = std::max(kLeastPage_s, static_cast<float>(utf8_letters(page.words)) / kLettersRead_s);
-      RC_ASSERT(at_s - from_s > least_s - 2.1F);
+      RC_ASSERT(at_s - from_s > least_s - 3.6F);
       page = now;
       from_s = at_s;
       words += now.words;
@@ -258,21 +258,42 @@ TEST(OverlayCaptions, where_all_is_to_be_seen_the_least_important_is_covered) {
 }
 
 RC_GTEST_PROP(OverlayPages, are_as_few_and_as_even_as_can_be, ()) {
-  std::vector<float> heights(from_to<std::size_t>(1, 30));
-  for (float& height : heights)
-    height = static_cast<float>(from_to(20, 50));
+  std::vector<PageLine> lines(from_to<std::size_t>(1, 30));
+  for (PageLine& line : lines) {
+    line.height = static_cast<float>(from_to(20, 50));
+    line.gap = static_cast<float>(from_to(0, 1) * 10);
+  }
   const auto most = static_cast<float>(from_to(50, 300));
-  const auto begins = page_begins(heights, most);
+  const auto begins = page_begins(lines, most);
   RC_ASSERT(!begins.empty() && begins.front() == 0);
-  RC_ASSERT(highest_page(heights, begins) <= most);
-  const float all = highest_page(heights, std::vector<std::size_t>{0});
+  RC_ASSERT(highest_page(lines, begins) <= most);
+  constexpr float kHighest = 60;  // a line and its gap
+  const float all = highest_page(lines, std::vector<std::size_t>{0}) + 10;
   const auto pages = static_cast<float>(begins.size());
-  RC_ASSERT(all > (pages - 1) * (most - 50));                    // few
-  RC_ASSERT(highest_page(heights, begins) <= all / pages + 50);  // even
+  RC_ASSERT(all > (pages - 1) * (most - kHighest));                  // few
+  RC_ASSERT(highest_page(lines, begins) <= all / pages + kHighest);  // even
+}
+
+TEST(OverlayPages, of_equal_lines_only_the_last_page_may_be_short) {
+  std::vector<PageLine> lines(5, {37, 0});
+  lines.front().gap = 8;
+  EXPECT_EQ(page_begins(lines, 84), (std::vector<std::size_t>{0, 2, 4}));
+  EXPECT_EQ(page_begins(lines, 160), (std::vector<std::size_t>{0, 3}));
+}
+
+TEST(OverlayPages, a_page_stays_for_its_letters_and_the_first_comes_again) {
+  const std::vector<std::string> lines{std::string(74, 'a'), "b"};  // 5 s, and the least
+  const std::vector<std::size_t> begins{0, 1};
+  for (const float round_s : {0.0F, 9.0F, 900.0F}) {
+    EXPECT_EQ(page_at(lines, begins, round_s + 0.1F).mark, "1/2");
+    EXPECT_EQ(page_at(lines, begins, round_s + 4.9F).mark, "1/2");
+    EXPECT_EQ(page_at(lines, begins, round_s + 5.1F).mark, "2/2");
+    EXPECT_EQ(page_at(lines, begins, round_s + 8.9F).mark, "2/2");
+  }
 }
 
 TEST(OverlayPages, a_line_higher_than_a_page_has_none) {
-  EXPECT_TRUE(page_begins(std::vector<float>{10, 60}, 50).empty());
+  EXPECT_TRUE(page_begins(std::vector<PageLine>{{10, 0}, {60, 0}}, 50).empty());
   EXPECT_TRUE(page_begins({}, 50).empty());
 }
 
