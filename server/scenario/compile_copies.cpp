@@ -75,8 +75,10 @@ std::vector<Pose> in_rows(const Fields& fields, std::size_t count, const Pose& f
   const Vec3 step = fields.vector("step"), row_step = fields.vector("rowStep");
   const auto columns = fields.given("columns") ? static_cast<std::size_t>(fields.number("columns")) : count;
   std::vector<Pose> poses(count, first);
-  for (std::size_t i = 0; i < count; ++i)
-    poses[i].p += static_cast<double>(i % columns) * step + static_cast<double>(i / columns) * row_step;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t column = i % columns, row = i / columns;
+    poses[i].p += static_cast<double>(column) * step + static_cast<double>(row) * row_step;
+  }
   return poses;
 }
 
