@@ -23,8 +23,8 @@ Error refusal_of(const std::string& name, const std::string& value) {
 }
 
 TEST(DisplaySettings, each_is_read_as_it_is_written) {
-  DisplaySettings all{0.25, true,     "en",     true,   true,    "both",     90, false,
-                      33,   "cached", "closed", "Γεια", "Hello", "http://a", ""};
+  DisplaySettings all{0.25, true,     "en",   true,     true,   "both",  90,         false,
+                      33,   "cached", "dark", "closed", "Γεια", "Hello", "http://a", ""};
   DisplaySettings read;
   ASSERT_TRUE(client::apply(settings_of(all), read).has_value());
   EXPECT_EQ(read, all);
