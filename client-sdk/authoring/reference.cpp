@@ -204,34 +204,6 @@ constexpr std::string_view kMetadataIntroduction = R"(
 A name in capitals or a star stands for a name of your own: `trigger:*` is `trigger:1`, `trigger:2` and so on.
 )";
 
-constexpr std::string_view kCopiesRules = R"(
-## Many bodies of one
-
-Twenty coins need not be written twenty times. A `RigidBody` whose `mechane:body` has a set `copies` stands for many bodies:
-
-```xml
-<RigidBody DEF='COIN' mass='0.02' inertia='0.000001 0 0 0 0.000002 0 0 0 0.000001' position='0.4 0.8 0'>
-  <MetadataSet containerField='metadata' name='mechane:body'>
-    <MetadataString containerField='value' name='model' value='"MODEL"'/>
-    <MetadataSet containerField='value' name='copies'>
-      <MetadataDouble containerField='value' name='count' value='20'/>
-      <MetadataDouble containerField='value' name='step' value='0 0.003 0'/>
-    </MetadataSet>
-  </MetadataSet>
-</RigidBody>
-```
-
-- They are called COIN-1 to COIN-20, and COIN alone is none of them. They have all that COIN has (shape, mass, feel, title), and differ in
-  name and place. COIN-1 stands where COIN is written, unless a list of `positions` says otherwise.
-- They stand in **a row** or a pile (`count` and `step`), in **a grid** (also `columns` and `rowStep`), in **a ring** (`count` and
-  `ringCentre`), or as `positions` **lists** them. No two may stand at the same place.
-- Agents, machines, quantities, effects, visits and steps name one of them, as any body: `"COIN-3"`, `"COIN-3.speed"`, `object:COIN-3`.
-  Where several bodies may be named, `"COIN-*"` is all; and `object:COIN-*` in a step changes all, but for their places.
-- A joint, a `ROUTE` and a `mechane:agent` on the body itself cannot tell one from another: such a body is a RigidBody of its own.
-- Why a key, and not X3D's own means? `USE` is the same body once more, not another one; a prototype would do, but each of its instances
-  has to be written, too. To other X3D programs the file has one coin.
-)";
-
 std::string_view kind_word(scenario::ValueKind kind) {
   switch (kind) {
     case scenario::ValueKind::string:
@@ -415,7 +387,6 @@ std::string reference_page() {
   page += kShapesRules;
   for (const Variation& variation : reference_variations())
     page += variation_text(variation);
-  page += kCopiesRules;
   page += node_tables_text();
   page += key_tables_text();
   page += components_text(

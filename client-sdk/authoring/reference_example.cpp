@@ -458,6 +458,32 @@ constexpr Piece kSignPieces[] = {
 )"},
 };
 
+constexpr Piece kCopyPieces[] = {
+    {"In the RigidBodyCollection, in place of the post: the post, and a pile of coins. The mesh file has one node "
+     "more, `COIN`",
+     "", R"(      <RigidBody DEF='POST' fixed='true'>
+        <MetadataSet containerField='metadata' name='mechane:body'>
+          <MetadataString containerField='value' name='model' value='"MODEL"'/>
+        </MetadataSet>
+      </RigidBody>
+      <RigidBody DEF='COIN' mass='0.02' inertia='1e-6 0 0 0 2e-6 0 0 0 1e-6' position='0.4 0.8 0' useGlobalGravity='false'>
+        <MetadataSet containerField='metadata' name='mechane:body'>
+          <MetadataString containerField='value' name='model' value='"MODEL"'/>
+          <MetadataSet containerField='value' name='copies'>
+            <MetadataDouble containerField='value' name='count' value='20'/>
+            <MetadataDouble containerField='value' name='step' value='0 0.003 0'/>
+          </MetadataSet>
+        </MetadataSet>
+      </RigidBody>
+)",
+     R"(      <RigidBody DEF='POST' fixed='true'>
+        <MetadataSet containerField='metadata' name='mechane:body'>
+          <MetadataString containerField='value' name='model' value='"MODEL"'/>
+        </MetadataSet>
+      </RigidBody>
+)"},
+};
+
 constexpr Variation kVariations[] = {
     {"More steps", "To the example come two steps, a hint, words that are read aloud, and a close-up.", kStepPieces},
     {"A surface that changes with the step",
@@ -494,6 +520,26 @@ constexpr Variation kVariations[] = {
      "cup of "
      "Tantalus.",
      kWaterPieces},
+    {"Many bodies of one",
+     "Twenty coins need not be written twenty times: a `RigidBody` whose `mechane:body` has a set `copies` stands for\n"
+     "many bodies.\n"
+     "\n"
+     "- They are called COIN-1 to COIN-20, and COIN alone is none of them. They have all that COIN has (shape, mass, "
+     "feel, title), and differ in\n"
+     "  name and place. COIN-1 stands where COIN is written, unless a list of `positions` says otherwise.\n"
+     "- They stand in **a row** or a pile (`count` and `step`), in **a grid** (also `columns` and `rowStep`), in **a "
+     "ring** (`count` and\n"
+     "  `ringCentre`), or as `positions` **lists** them. No two may stand at the same place.\n"
+     "- Agents, machines, quantities, effects, visits and steps name one of them, as any body: `\"COIN-3\"`, "
+     "`\"COIN-3.speed\"`, `object:COIN-3`.\n"
+     "  Where several bodies may be named, `\"COIN-*\"` is all; and `object:COIN-*` in a step changes all, but for "
+     "their places.\n"
+     "- A joint, a `ROUTE` and a `mechane:agent` on the body itself cannot tell one from another: such a body is a "
+     "RigidBody of its own.\n"
+     "- Why a key, and not X3D's own means? `USE` is the same body once more, not another one; a prototype would do, "
+     "but each of its instances\n"
+     "  has to be written, too. To other X3D programs the file has one coin.",
+     kCopyPieces},
     {"Another language", "Each text is written once for each language; `mechane check` names the missing ones.",
      kLanguagePieces},
     {"A sign to another exhibit",
