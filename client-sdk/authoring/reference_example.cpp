@@ -459,14 +459,15 @@ constexpr Piece kSignPieces[] = {
 };
 
 constexpr Piece kCopyPieces[] = {
-    {"In the RigidBodyCollection, in place of the post: the post, and a pile of coins. The mesh file has one node "
+    {"In the RigidBodyCollection, in place of the post: the post, and a pile of coins to look at. The mesh file has "
+     "one node "
      "more, `COIN`",
      "", R"(      <RigidBody DEF='POST' fixed='true'>
         <MetadataSet containerField='metadata' name='mechane:body'>
           <MetadataString containerField='value' name='model' value='"MODEL"'/>
         </MetadataSet>
       </RigidBody>
-      <RigidBody DEF='COIN' mass='0.02' inertia='1e-6 0 0 0 2e-6 0 0 0 1e-6' position='0.4 0.8 0' useGlobalGravity='false'>
+      <RigidBody DEF='COIN' fixed='true' position='0.4 0.8 0'>
         <MetadataSet containerField='metadata' name='mechane:body'>
           <MetadataString containerField='value' name='model' value='"MODEL"'/>
           <MetadataSet containerField='value' name='copies'>
