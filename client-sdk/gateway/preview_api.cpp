@@ -1,7 +1,9 @@
 #include "client-sdk/gateway/preview_api.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +22,22 @@ HttpAnswer looked_at(GatewaySite& site, const std::string& draft) {
   return fresh_answer(site.previews().look(draft, time_now()));
 }
 
+using LaidOut = std::optional<studio::PreviewDraft>;
+
+/// `then` hears on the loop's thread of the draft that was laid out, or, where that is empty, why not.
+void lay_out(GatewaySite& site, const std::string& draft, const studio::TrialRequest& wanted,
+             std::function<void(LaidOut, HttpAnswer)> then) {
+  const auto laid = std::make_shared<LaidOut>();
+  site.studio().give(
+      [draft, laid, wanted](studio::Shelf& shelf) {
+        auto draft_laid = shelf.lay_out(draft, wanted.revision, wanted.step);
+        if (!draft_laid) return fault_answer(draft_laid.error());
+        *laid = std::move(*draft_laid);
+        return fresh_answer("{}");
+      },
+      [laid, then = std::move(then)](HttpAnswer answer) { then(std::move(*laid), std::move(answer)); });
+}
+
 void start_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
   const auto wanted = studio::parse_trial(body);
   if (!wanted) return done(fault_answer({wanted.error()}));
@@ -27,18 +45,10 @@ void start_preview(GatewaySite& site, const std::string& draft, const std::strin
     return done(refusal(409, "a kiosk of the museum has the name that this draft would be tried under",
                         "give the draft, or the kiosk, another name"));
   if (auto room = site.previews().prepare(draft); !room) return done(refusal(room.error()));
-  const auto laid = std::make_shared<std::optional<studio::PreviewDraft>>();
-  site.studio().give(
-      [draft, laid, wanted = *wanted](studio::Shelf& shelf) {
-        auto draft_laid = shelf.lay_out(draft, wanted.revision, wanted.step);
-        if (!draft_laid) return fault_answer(draft_laid.error());
-        *laid = std::move(*draft_laid);
-        return fresh_answer("{}");
-      },
-      [&site, draft, laid, done](HttpAnswer answer) {
-        site.previews().start(draft, *laid ? &**laid : nullptr, time_now());
-        done(*laid ? looked_at(site, draft) : std::move(answer));
-      });
+  lay_out(site, draft, *wanted, [&site, draft, done](LaidOut laid, HttpAnswer refused) {
+    site.previews().start(draft, laid ? &*laid : nullptr, time_now());
+    done(laid ? looked_at(site, draft) : std::move(refused));
+  });
 }
 
 void edit_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {
@@ -46,19 +56,11 @@ void edit_preview(GatewaySite& site, const std::string& draft, const std::string
   if (!revision) return done(fault_answer({revision.error()}));
   const auto step = site.previews().editable(draft);
   if (!step) return done(refusal(step.error()));
-  const auto laid = std::make_shared<std::optional<studio::PreviewDraft>>();
-  site.studio().give(
-      [draft, laid, revision = *revision, step = *step](studio::Shelf& shelf) {
-        auto draft_laid = shelf.lay_out(draft, revision, step);
-        if (!draft_laid) return fault_answer(draft_laid.error());
-        *laid = std::move(*draft_laid);
-        return fresh_answer("{}");
-      },
-      [&site, draft, laid, done](HttpAnswer answer) {
-        if (!*laid) return done(std::move(answer));
-        const auto edited = site.previews().edit(draft, std::move(**laid));
-        done(edited ? looked_at(site, draft) : refusal(edited.error()));
-      });
+  lay_out(site, draft, {*revision, *step}, [&site, draft, done](LaidOut laid, HttpAnswer refused) {
+    if (!laid) return done(std::move(refused));
+    const auto edited = site.previews().edit(draft, std::move(*laid));
+    done(edited ? looked_at(site, draft) : refusal(edited.error()));
+  });
 }
 
 void pace_preview(GatewaySite& site, const std::string& draft, const std::string& body, const Site::Done& done) {

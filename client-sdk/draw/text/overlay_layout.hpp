@@ -57,7 +57,7 @@ struct OverlayLayout {
   std::vector<OverlayTarget> targets;  ///< none lies over another
   float covered_below =
       0;  ///< share of the height from the bottom to the caption's upper edge, in its usual place; 0: no caption
-  std::optional<picture::PictureBox> caption, note;  ///< where they are; none: there is none
+  std::optional<picture::PictureBox> caption, note;  ///< where they are; empty: it is not shown
 };
 
 /// Width of a line, in pixels.

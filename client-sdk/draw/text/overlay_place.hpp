@@ -28,7 +28,7 @@ struct FreePlace {
   float cost = 0;
 };
 
-/// The cheapest place of a panel as large as `usual`, over nothing. None: there is no such place.
+/// The cheapest place of a panel as large as `usual`, that covers nothing. Empty: no place is free.
 [[nodiscard]] std::optional<FreePlace> free_place(const Surroundings& around, const Box& usual);
 
 /// The same for a panel for which there is no free place: it covers the least important, and of that as little as possible. None: the

@@ -89,7 +89,7 @@ class Shelf {
   [[nodiscard]] ShelfResult<std::string> take_file(const std::string& name, const std::string& path);
   /// How the draft looks, as a WebP picture: the draft's own, or the exhibit's where the draft has none. Errors: not_found.
   [[nodiscard]] ShelfResult<std::string> picture(const std::string& name) const;
-  /// From anywhere. It is no step, and goes with the draft when it is published. Errors: invalid_value; too_large; io_failure.
+  /// Bytes from anywhere. Undo does not take it back; publishing the draft publishes it. Errors: invalid_value; too_large; io_failure.
   [[nodiscard]] ShelfResult<std::string> set_picture(const std::string& name, std::span<const std::byte> webp);
   /// What bodies can be made of a mesh file: its nodes with the volumes of those that are closed. It imports the file.
   [[nodiscard]] ShelfResult<std::string> nodes_of_file(const std::string& name, const std::string& file);
