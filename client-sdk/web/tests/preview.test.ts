@@ -163,6 +163,49 @@ it('what is edited meanwhile goes into the world that runs, once for each state 
   expect(edits().length).toBe(1);
 });
 
+it('a visit of the draft as it is stored is played once that runs, from its beginning', async () => {
+  const { desk, draft } = deskOf();
+  let now: object = { revision: 4 };
+  let edit: () => void = () => undefined;
+  answer = (path) => {
+    const said = { state: 'running', pace: 1, ...now };
+    return path.endsWith('/edit') ? new Promise((done) => (edit = () => done(said))) : said;
+  };
+  const orders = (): string[] => asked.filter(([method]) => method === 'POST').map(([, path, body]) => `${path} ${JSON.stringify(body)}`);
+  await draft.refresh();
+  desk.begin();
+  await vi.advanceTimersByTimeAsync(100);
+  expect(orders()).toEqual(['/preview/edit {"revision":5}']);
+  expect(desk.busy).toBe(false);  // what the page does by itself takes no button away
+  desk.playSoon('shown');
+  edit();
+  await vi.advanceTimersByTimeAsync(1_500);
+  expect(orders().length).toBe(1);
+  now = { revision: 5 };
+  await vi.advanceTimersByTimeAsync(1_000);
+  expect([orders()[1], desk.playNext]).toEqual(['/preview/visit {"visit":"shown"}', '']);
+  // What cannot be taken over, or began later, starts anew.
+  for (const other of [{ revision: 4, kept: { revision: 5, by: 'body LOAD' } }, { revision: 5, begins: 'use/lift' }]) {
+    asked = [];
+    now = other;
+    await vi.advanceTimersByTimeAsync(1_500);
+    desk.playSoon('shown');
+    now = { state: 'starting', revision: 5 };
+    await vi.advanceTimersByTimeAsync(2_500);
+    expect(orders()).toEqual(['/preview {"revision":5}']);
+    now = { revision: 5 };
+    await vi.advanceTimersByTimeAsync(1_500);
+    expect(orders().slice(1)).toEqual(['/preview/visit {"visit":"shown"}']);
+  }
+  // Where that is refused, nothing is played later.
+  now = { revision: 4, kept: { revision: 5, by: 'failed' } };
+  await vi.advanceTimersByTimeAsync(1_500);
+  answer = () => Promise.reject(new ApiError(503, 'the shelf is full', ''));
+  desk.playSoon('shown');
+  await vi.advanceTimersByTimeAsync(0);
+  expect([desk.playNext, desk.trouble]).toEqual(['', 'the shelf is full']);
+});
+
 it('another author who was quicker is no trouble', async () => {
   const { desk, draft } = deskOf();
   await draft.refresh();

@@ -186,6 +186,7 @@ try {
   assert.deepEqual(errors.filter((e) => !/status of (401|404|409|422|503)/.test(e)), []);  // not signed in; half made; no server
 } catch (error) {
   await picture('failed');
+  console.error(await page.locator('body').innerText().catch(String));
   throw error;
 } finally {
   await browser.close();

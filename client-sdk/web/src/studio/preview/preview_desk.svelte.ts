@@ -37,8 +37,8 @@ export class PreviewDesk {
   chosen = $state<Record<string, boolean>>({});
   /** The step that the next one begins at, "use/lift"; "": where the exhibit does. */
   from = $state('');
-  /** The visit that is played once it runs; "": none. */
-  playNext = '';
+  /** The visit that is played once the draft as it is stored runs; "": none. */
+  playNext = $state('');
   /** Seconds of world time in the plots; 0: all. */
   window_s = $state(30);
   /** Grows when the series has something new to draw. */
@@ -114,6 +114,11 @@ export class PreviewDesk {
     this.acts = 0;
     return this.order(() => this.requests.playVisit(this.name, visit));
   }
+  /** The same, of the draft as it is stored: it goes into what runs, or is started anew, first. */
+  playSoon(visit: string): void {
+    this.playNext = visit;
+    this.catchUp();
+  }
   /** What the author has done so far, as a scripted visit does it, and how much of it no visit can do. */
   shown(view: View): { moves: Move[]; leftOut: number } {
     return { moves: this.recorder.moves(view, this.world), leftOut: this.recorder.leftOut };
@@ -181,27 +186,38 @@ export class PreviewDesk {
     if (said.pace > 0) this.pace = said.pace;
     this.now = said;
     if (this.seen) this.listen(said.state === 'running' ? said.socket : '');
-    const visit = this.playNext;
-    if (said.state !== 'starting') this.playNext = '';
-    if (said.state === 'running' && visit !== '') void this.play(visit);
-    this.carryOn();
+    if (!this.isOn) this.playNext = '';
+    this.catchUp();
     if (said.state !== 'none' && said.revision > (this.draft.state.view?.revision ?? 0)) void this.draft.refresh();
   }
-  /** What was edited meanwhile goes into the world that runs; once for each state of the draft. */
-  private carryOn(): void {
+  /** What runs becomes the draft as it is stored; then the visit is played that waits for it. */
+  private catchUp(): void {
     const { view, waiting } = this.draft.state;
-    const { revision, kept, visit } = this.now!;
-    if (!this.runs || !view || waiting > 0 || view.revision <= Math.max(revision, kept.revision, this.carried)) return;
-    if (visit.state === 'playing' || view.problems.some((p) => p.severity === 'error')) return;
-    this.carried = view.revision;
-    void this.order(() => this.requests.editPreview(this.name, view.revision).catch((error: unknown) => {
+    if (!this.runs || !view || waiting > 0) return;
+    const { revision, kept, begins, visit } = this.now!;
+    const next = this.playNext;
+    const isNew = revision >= view.revision;
+    if (next !== '' && isNew && begins === '') {
+      this.playNext = '';
+      void this.play(next);
+    } else if (next !== '' && (isNew || kept.revision >= view.revision)) {
+      if (this.orders === 0) void this.start(view.revision, '');
+    } else if (view.revision > Math.max(revision, kept.revision, this.carried) && visit.state !== 'playing') {
+      if (!view.problems.some((p) => p.severity === 'error')) this.carryOn(view.revision);
+    }
+  }
+  /** What was edited meanwhile goes into the world that runs; once for each state of the draft. Buttons stay: nobody has ordered it. */
+  private carryOn(revision: number): void {
+    this.carried = revision;
+    this.line = this.line.then(() => this.ask(() => this.requests.editPreview(this.name, revision).catch((error: unknown) => {
       // Somebody was quicker: what runs now is seen by a look.
       if (error instanceof ApiError && error.status === 409) return this.requests.preview(this.name);
       throw error;
-    }));
+    })));
   }
   private fail(error: unknown): void {
     this.trouble = sentence(error);
+    this.playNext = '';
     const status = error instanceof ApiError ? error.status : 0;
     if (status === 401) this.draft.signOut();
     // Somebody has changed the draft: it is shown as it is now, and can be started.
