@@ -37,7 +37,7 @@ def write_report(path: Path, root: Path, phases: dict[str, Ran]) -> None:
     seconds = round(sum(phase.seconds for phase in phases.values()), 1)
     metrics: dict[str, float] = {"seconds": seconds}
     metrics |= {outcome: total.count(outcome) for outcome in ("passed", "failed", "skipped")}
-    metrics["left_out"] = total.count("left out")
+    metrics |= {"left_out": total.count("left out"), "too_late": total.count("too late")}
     metrics |= {f"phase_s.{name}": round(phase.seconds, 1) for name, phase in phases.items()}
     metrics |= {f"cpu_s.{name}": round(phase.cpu_s, 1) for name, phase in phases.items()}
     path.write_text(json.dumps({

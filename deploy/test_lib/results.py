@@ -6,12 +6,14 @@ from pathlib import Path
 
 
 LEFT_OUT = "left to other builds"  # tests/support/sanitizers.hpp says so, and write_junit()
+TOO_LATE = "the time was up"
+_NOT_RUN = {"skipped": "", "left out": LEFT_OUT, "too late": TOO_LATE}
 
 
 @dataclass
 class Case:
     name: str
-    outcome: str  # passed, failed, skipped (the machine lacks something), left out (another build runs it, or the time was up)
+    outcome: str  # passed, failed, skipped (the machine lacks something), left out (another build runs it), too late (see deploy/test --within)
     detail: str = ""
     seconds: float = 0.0
 
@@ -41,8 +43,10 @@ def _case(element: xml.Element) -> Case:
     if failures or element.get("status") == "fail":
         return Case(name, "failed", said, seconds)
     skipped = element.find("skipped")
-    if skipped is not None and LEFT_OUT in skipped.get("message", ""):
-        return Case(name, "left out", said, seconds)
+    why = skipped.get("message", "") if skipped is not None else ""
+    for outcome, message in _NOT_RUN.items():
+        if message and message in why:
+            return Case(name, outcome, said, seconds)
     if skipped is not None or element.get("status") in ("notrun", "disabled"):
         return Case(name, "skipped", said, seconds)
     return Case(name, "passed", seconds=seconds)
@@ -58,13 +62,13 @@ def read_junit(path: Path) -> Tally:
 
 def write_junit(path: Path, suite: str, tally: Tally) -> None:
     root = xml.Element("testsuite", name=suite, tests=str(len(tally.cases)), failures=str(tally.count("failed")),
-                       skipped=str(tally.count("skipped") + tally.count("left out")))
+                       skipped=str(sum(tally.count(outcome) for outcome in _NOT_RUN)))
     for case in tally.cases:
         element = xml.SubElement(root, "testcase", name=case.name, classname=suite, time=f"{case.seconds:.3f}")
         if case.outcome == "failed":
             xml.SubElement(element, "failure", message=case.detail.splitlines()[-1] if case.detail else "failed")
-        if case.outcome in ("skipped", "left out"):
-            xml.SubElement(element, "skipped", message=LEFT_OUT if case.outcome == "left out" else "")
+        if case.outcome in _NOT_RUN:
+            xml.SubElement(element, "skipped", message=_NOT_RUN[case.outcome])
         # XML 1.0 has no way to write most control characters.
         xml.SubElement(element, "system-out").text = "".join(c for c in case.detail if c >= " " or c in "\n\t")
     path.write_text(xml.tostring(root, encoding="unicode"))

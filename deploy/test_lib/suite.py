@@ -1,6 +1,7 @@
 """The test suite's phases, one after another. Run by deploy/test; see there."""
 
 import argparse
+import math
 import os
 import random
 import resource
@@ -45,6 +46,7 @@ class Phase:
     run: Callable[[Path], Tally]  # gets its log, returns its cases
     preset: str  # the build that it makes or needs
     ahead: str = ""  # for a shell: does its work, as far as it comes, beside the tests before it; `run` takes up the rest
+    until: float = math.inf  # begins no later (of time.monotonic()), and its `run` does no more than this allows
 
     @property
     def name(self) -> str:
@@ -56,16 +58,16 @@ def _build_commands(preset: str, targets: tuple[str, ...], settings: tuple[str, 
     return ["cmake", "--preset", preset, *settings], ["cmake", "--build", f"build/{preset}", "-j", str(JOBS), *only]
 
 
-def build(preset: str, *targets: str, settings: tuple[str, ...] = ()) -> Phase:
+def build(preset: str, *targets: str, settings: tuple[str, ...] = (), until: float = math.inf) -> Phase:
     def run(log: Path) -> Tally:
         name = f"build {preset}"
         configure, make = _build_commands(preset, targets, settings)
-        if processes.run(configure, log, limit_s=300) or processes.run(make, log, limit_s=3600):
-            return Tally([Case(name, "failed", tail(log))])
+        if processes.run(configure, log, limit_s=300) or processes.run(make, log, limit_s=min(3600.0, until - time.monotonic())):
+            return Tally([Case(name, "too late" if time.monotonic() >= until else "failed", tail(log))])
         return Tally([Case(name, "passed")])
 
     configure, make = map(shlex.join, _build_commands(preset, targets, settings))
-    return Phase(f"build {preset}", run, preset, f"{{ test -f build/{preset}/build.ninja || {configure}; }} && {make}")
+    return Phase(f"build {preset}", run, preset, f"{{ test -f build/{preset}/build.ninja || {configure}; }} && {make}", until)
 
 
 def begin_ahead(phases: list[Phase]) -> processes.Beside | None:
@@ -103,15 +105,15 @@ def without_real_time() -> list[str]:
     return ["prlimit", "--rtprio=0", *drop]
 
 
-def end_to_end(preset: str, at_once: int, *only: str) -> Phase:
+def end_to_end(preset: str, at_once: int, *only: str, until: float = math.inf) -> Phase:
     """Tests of the programs with all of these labels. Those that draw count twice, some run alone: see tests/integration/CMakeLists.txt."""
     def run(log: Path) -> Tally:
         return _run_ctest(preset, log, at_once, only=("integration", *only))
 
-    return Phase(f"test {preset} end-to-end", run, preset)
+    return Phase(f"test {preset} end-to-end", run, preset, until=until)
 
 
-def programs(preset: str, only: str = "", leave_out: str = "none", others: bool = False) -> Phase:
+def programs(preset: str, only: str = "", leave_out: str = "none", others: bool = False, until: float = math.inf) -> Phase:
     """The GoogleTest programs with the label `only` and without `leave_out`, and the other tests that need no network where asked for."""
     def run(log: Path) -> Tally:
         found = chosen(known_to_ctest(ROOT / "build" / preset), only, leave_out)
@@ -122,7 +124,8 @@ def programs(preset: str, only: str = "", leave_out: str = "none", others: bool 
         def run_all(some: list[Program]) -> Tally:
             tally = Tally()
             for program in some:
-                tally.add(run_program(program, log, environment))
+                in_time = time.monotonic() < until
+                tally.add(run_program(program, log, environment) if in_time else Tally([Case(f"{preset}.{program.name}", "too late")]))
             return tally
 
         alone = [program for program in found if "alone" in program.labels]
@@ -138,7 +141,7 @@ def programs(preset: str, only: str = "", leave_out: str = "none", others: bool 
         tally.add(run_all(alone))
         return tally
 
-    return Phase(f"test {preset} in-process", run, preset)
+    return Phase(f"test {preset} in-process", run, preset, until=until)
 
 
 def repeated_programs(preset: str, rounds: int, seed: int, only: str) -> Phase:
@@ -182,7 +185,7 @@ def _fuzz_one(program: Path) -> Case:
     return Case(f"fuzz.{name}", "failed" if status else "passed", tail(log) if status else "", time.monotonic() - begun)
 
 
-def fuzz() -> Phase:
+def fuzz(until: float) -> Phase:
     def run(log: Path) -> Tally:
         programs = sorted(program for program in (ROOT / "build/asan-ubsan/bin").glob("fuzz_*") if program.is_file())
         with ThreadPoolExecutor(max_workers=JOBS) as pool:
@@ -192,31 +195,31 @@ def fuzz() -> Phase:
         write_junit(log.with_suffix(".xml"), "fuzz", tally)
         return tally
 
-    return Phase(f"fuzz, {FUZZ_SECONDS} s each", run, "asan-ubsan")
+    return Phase(f"fuzz, {FUZZ_SECONDS} s each", run, "asan-ubsan", until=until)
 
 
 def tidy(until: float) -> Phase:
-    """Looks at nothing more after `until`: what it did not come to is counted as left out."""
     def run(log: Path) -> Tally:
         junit = log.with_suffix(".xml")
         junit.unlink(missing_ok=True)
         processes.run([*TIDY, "--junit", str(junit), "--seconds", str(max(0.0, until - time.monotonic()))], log, limit_s=3600)
         return read_junit(junit)
 
-    return Phase("clang-tidy", run, "asan-ubsan", shlex.join(TIDY))
+    return Phase("clang-tidy", run, "asan-ubsan", shlex.join(TIDY), until)
 
 
-def phases(quick: bool, until: float = float("inf")) -> list[Phase]:
+def phases(quick: bool, until: float = math.inf) -> list[Phase]:
+    """The release build and its tests always run to their end."""
     if quick:
         return [build("quick", "in_process_tests"), programs("quick", only="in-process", leave_out="slow", others=True)]
     return [
         build("release"), programs("release", others=True),
         end_to_end("release", JOBS + 1),  # these tests wait much, but each has loops of 1 kHz
-        build("asan-ubsan"), programs("asan-ubsan", leave_out="not-address"),
+        build("asan-ubsan", until=until), programs("asan-ubsan", leave_out="not-address", until=until),
         # A sanitized server needs a core, and its client another.
-        end_to_end("asan-ubsan", max(1, JOBS // 2), "address"),
-        fuzz(),
-        build("tsan", "threaded_tests"), programs("tsan", only="threads"),
+        end_to_end("asan-ubsan", max(1, JOBS // 2), "address", until=until),
+        fuzz(until),
+        build("tsan", "threaded_tests", until=until), programs("tsan", only="threads", until=until),
         tidy(until),
     ]
 
@@ -233,7 +236,7 @@ def run_phase(phase: Phase, log: Path, beside: processes.Beside | None) -> Tally
 
 def report(ran: Ran, log: Path) -> None:
     tally = ran.tally
-    others = "".join(f", {tally.count(outcome)} {outcome}" for outcome in ("skipped", "left out") if tally.count(outcome))
+    others = "".join(f", {tally.count(outcome)} {outcome}" for outcome in ("skipped", "left out", "too late") if tally.count(outcome))
     print(f"      {tally.count('passed')} passed, {len(tally.failed)} failed{others}, in {clock(ran.seconds)}, "
           f"{clock(ran.cpu_s)} of processor time", flush=True)
     for case in tally.failed:
@@ -251,13 +254,16 @@ def _cpu_s() -> float:
 
 def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
     """One after another; what each found goes into `done`, so that a run that is interrupted can still be reported."""
-    broken: set[str] = set()  # builds that failed: their tests cannot run
+    broken: set[str] = set()  # builds that are not there: their tests cannot run
     beside: processes.Beside | None = None  # goes on from test to test: what it has half done is lost when it ends
     started = time.monotonic()
     for number, phase in enumerate(planned, 1):
         print(f"[{number}/{len(planned)}  {clock(time.monotonic() - started)}] {phase.title}", flush=True)
-        if phase.preset in broken:
-            print("      not run: its build failed", flush=True)
+        late = time.monotonic() >= phase.until
+        if late:
+            done[phase.name] = Ran(Tally([Case(phase.title, "too late")]), 0)
+        if late or phase.preset in broken:
+            print("      not run: " + ("the time is up" if late else "its build is not there"), flush=True)
             continue
         fills = phase.title.startswith(("test", "fuzz"))
         if beside and not fills:
@@ -269,7 +275,7 @@ def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
         log = OUT / f"{number}-{phase.name}.log"
         tally = run_phase(phase, log, beside)
         done[phase.name] = Ran(tally, time.monotonic() - begun, _cpu_s() - cpu_s)
-        if phase.title.startswith("build") and tally.failed:
+        if phase.title.startswith("build") and tally.count("passed") < len(tally.cases):
             broken.add(phase.preset)
         report(done[phase.name], log)
 
@@ -278,7 +284,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="deploy/test")
     parser.add_argument("--quick", action="store_true", help="one build, the tests that need no network, style")
     parser.add_argument("--within", type=float, default=float("inf"), metavar="MINUTES",
-                        help="of a full run: after these clang-tidy begins with no more")
+                        help="of a full run: after these the sanitizers, fuzzers and clang-tidy begin with no more")
     parser.add_argument("--repeat", type=int, metavar="N", help=f"in-process tests N times, end-to-end and slow ones N / {RARE} times")
     parser.add_argument("--seed", type=int, default=random.randrange(1_000_000), help="of --repeat")
     parser.add_argument("--only", default="", metavar="REGEX", help="of --repeat: programs by name (unit_record), or integration.NAME")
@@ -301,6 +307,8 @@ def main() -> int:
         processes.end_leftovers(grace_s=0)
         write_report(OUT / "report.json", ROOT, done)
     print("the longest cases:", *long_cases(done), sep="\n  ")
+    if late := [name for name, ran in done.items() if ran.tally.count("too late")]:
+        print(f"THE TIME WAS UP for all or a part of {', '.join(late)}: that is not tested. Run deploy/test without --within.")
     total = whole(done)
     for name in sorted({case.name for case in total.failed}):
         print(f"failed: {name}")

@@ -171,7 +171,7 @@ def _check_together(number: int, entries: list[dict], build: Path, configuration
 def _check_in_time(until: float, number: int, entries: list[dict], build: Path, configuration: bytes) -> list[Case]:
     if time.monotonic() < until:
         return _check_together(number, entries, build, configuration)
-    return [Case(_name(entry, build), "left out") for entry in entries]
+    return [Case(_name(entry, build), "too late") for entry in entries]
 
 
 def _without_repeats(words: list[str]) -> list[str]:
@@ -236,8 +236,8 @@ def main() -> int:
         tally.cases.append(Case("tidy", "failed", f"{arguments.build}/compile_commands.json names no source of ours"))
     if arguments.junit:
         write_junit(arguments.junit, "tidy", tally)
-    left_out = tally.count("left out")
-    print(f"tidy: {len(entries)} sources, {len(tally.failed)} with faults" + (f", {left_out} left out for lack of time" if left_out else ""))
+    too_late = tally.count("too late")
+    print(f"tidy: {len(entries)} sources, {len(tally.failed)} with faults" + (f", {too_late} left out for lack of time" if too_late else ""))
     return 1 if tally.failed else 0
 
 

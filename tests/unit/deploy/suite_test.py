@@ -74,7 +74,8 @@ class Results(unittest.TestCase):
         self.assertEqual(cases[1].detail, "not within 30 s")
 
     def test_what_is_written_is_read_again(self):
-        cases = [Case("a.One", "passed", seconds=0.125), Case("a.Two", "failed", "why\nso", 3), Case("a.Three", "skipped"), Case("a.Four", "left out")]
+        cases = [Case("a.One", "passed", seconds=0.125), Case("a.Two", "failed", "why\nso", 3), Case("a.Three", "skipped"), Case("a.Four", "left out"),
+                 Case("a.Five", "too late")]
         write_junit(self.file, "a", Tally(list(cases)))
         self.assertEqual([(c.name, c.outcome, c.seconds) for c in read_junit(self.file).cases], [(c.name, c.outcome, c.seconds) for c in cases])
 
@@ -95,7 +96,7 @@ class Report(unittest.TestCase):
     def test_counts_and_the_time_of_each_phase(self):
         report = self.written({"build-release": Ran(Tally([Case("build", "passed")]), 61.04, 243.26),
                                "fuzz": Ran(Tally([Case("x", "failed", seconds=2), Case("y", "skipped"), Case("z", "passed")]), 9.5)})
-        self.assertEqual(report["metrics"], {"seconds": 70.5, "passed": 2, "failed": 1, "skipped": 1, "left_out": 0,
+        self.assertEqual(report["metrics"], {"seconds": 70.5, "passed": 2, "failed": 1, "skipped": 1, "left_out": 0, "too_late": 0,
                                              "phase_s.build-release": 61.0, "phase_s.fuzz": 9.5,
                                              "cpu_s.build-release": 243.3, "cpu_s.fuzz": 0})
         self.assertEqual((report["name"], report["seconds"], report["notes"]), ("test", 70.5, ["2.0 s  x  (fuzz)"]))
@@ -209,7 +210,21 @@ class Phases(unittest.TestCase):
                                      suite.Phase("test two, 10 s each", gives("passed"), "two"))
         self.assertEqual(list(done), ["build-one", "test-two"])
         self.assertIn("the reason", said)
-        self.assertIn("not run: its build failed", said)
+        self.assertIn("not run: its build is not there", said)
+
+    def test_when_the_time_is_up_a_build_ends_and_what_follows_is_named(self):
+        soon = time.monotonic() + 0.5
+        with mock.patch.object(suite, "_build_commands", lambda *_: (["true"], ["sleep", "60"])):
+            build = suite.build("slow", until=soon)
+            done, said = self.run_phases(build, suite.Phase("test slow", lambda log: Tally([Case("a", "failed")]), "slow", until=soon),
+                                         suite.Phase("test release", lambda log: Tally([Case("b", "passed")]), "release"))
+        self.assertEqual({name: [c.outcome for c in ran.tally.cases] for name, ran in done.items()},
+                         {"build-slow": ["too late"], "test-slow": ["too late"], "test-release": ["passed"]})
+        self.assertIn("1 too late", said)
+        self.assertIn("not run: the time is up", said)
+        ends = {phase.title for phase in suite.phases(False, until=soon) if phase.until == soon}
+        self.assertEqual({phase.title for phase in suite.phases(False)} - ends,
+                         {"build release", "test release in-process", "test release end-to-end"})
 
     def test_tests_are_filled_with_what_comes_later_from_one_to_the_next(self):
         order = []
