@@ -525,7 +525,7 @@ constexpr Variation kVariations[] = {
      "Twenty coins need not be written twenty times: a `RigidBody` whose `mechane:body` has a set `copies` stands for\n"
      "many bodies.\n"
      "\n"
-     "- They are called COIN-1 to COIN-20, and COIN alone is none of them. They have all that COIN has (shape, mass, "
+     "- They are called COIN-1 to COIN-20; no body is called COIN alone. They have all that COIN has (shape, mass, "
      "feel, title), and differ in\n"
      "  name and place. COIN-1 stands where COIN is written, unless a list of `positions` says otherwise.\n"
      "- They stand in **a row** or a pile (`count` and `step`), in **a grid** (also `columns` and `rowStep`), in **a "

@@ -1,9 +1,11 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import { ApiError } from '../src/console/api';
+import type { PoseArray } from '../src/wire/messages';
 import { degreesOf, numbersFrom, quaternionFrom, switchCommands, wordsCommand, written, type Command } from '../src/studio/commands';
 import { Draft, type DraftRequests, type DraftState, type Order } from '../src/studio/draft';
 import { exhibitName, filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/shelf/files';
 import { agentsOf, ruleText, stepsOf } from '../src/studio/flow/flow';
+import { jointsOfMoved } from '../src/studio/picture/left_behind';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/picture/joint';
 import { isOrdered, orderCommands } from '../src/studio/order';
 import { found } from '../src/studio/palette';
@@ -87,6 +89,11 @@ it('finds the table of a place, the names that fit there, and the end of a range
   expect(tableAt(schema, view(), 'nothing/here')).toBeNull();
   expect(namesFor(view(), 'step', 'activities/use/steps/turn/trigger:1/next')).toEqual(['grasp', 'turn', 'end']);
   expect(namesFor(view(), 'agent', '')).toEqual(['HOLD', 'PEG', 'AXLE']);
+  // One body that stands for many has their names.
+  const coins = (key: string, to: unknown): View => view({ bodies: [{ def: 'POST' }, { def: 'COIN', sets: {
+    'mechane:body': set('mechane:body', set('copies', value(key, to))) } }] });
+  expect(namesFor(coins('count', 3), 'body', '')).toEqual(['POST', 'COIN-1', 'COIN-2', 'COIN-3']);
+  expect(namesFor(coins('positions', [0, 0, 0, 0, 1, 0]), 'body', '', true)).toEqual(['POST', 'COIN-*', 'COIN-1', 'COIN-2']);
   const stiffness = keyIn(tableAt(schema, view(), 'DRUM/mechane:haptic'), 'stiffness')!;
   expect([beyond(stiffness, 49), beyond(stiffness, 1e9)]).toEqual([{ least: 50 }, null]);
 });
@@ -130,9 +137,35 @@ it('words are missing where one language has them, or where visitors cannot do w
   const nameless = wordGroups(view({ bodies: [{ def: 'DRUM' }, { def: 'POST' }] })).filter((g) => g.kind === 'body');
   expect(nameless.map((g) => [g.name, ...g.rows.map((r) => `${r.path}/${r.what} ${r.missing.length}`)])).toEqual([
     ['DRUM', 'DRUM/mechane:body/text/title 0']]);
+  // A gauge has words where its quantity is a set of its own.
+  const gauge = { kind: 'set', name: 'height', children: [{ kind: 'set', name: 'text', children: [
+    { kind: 'value', name: 'label.en', value: 'Height of the load' }] }] };
+  const gauges = wordGroups(view({ metadata: { kind: 'set', name: '', children: [
+    { kind: 'set', name: 'quantities', children: [gauge, { kind: 'value', name: 'held', value: 'HOLD.active' }] }] } }));
+  expect(gauges.filter((g) => g.kind === 'quantity').map((g) => [g.name, ...g.rows.map((r) => [r.path, r.what, r.words])])).toEqual([
+    ['height', ['quantities/height/text', 'label', { el: '', en: 'Height of the load' }]]]);
   expect(wordsCommand(view(), 'text/title.el', ' ')).toEqual([{ op: 'remove', path: 'text/title.el' }]);
   expect(wordsCommand(view(), 'text/title.de', '')).toEqual([]);
   expect(wordsCommand(view(), 'text/title.de', ' Kran ')).toEqual([{ op: 'set', path: 'text/title.de', value: 'Kran' }]);
+});
+
+it('joints go along where all that they join moves alike; others are named', () => {
+  const draft = viewOf({ outline: [{ def: 'POST', type: 'RigidBody', pose: [1, 0, 0, 0, 0, 0, 1] },
+    { def: 'ARM', type: 'RigidBody', pose: [1, 1, 0, 0, 0, 0, 1] }], bodies: [{ def: 'POST' }, { def: 'ARM' }], joints: [
+    { def: 'AXLE', type: 'SingleAxisHingeJoint', body1: 'POST', body2: 'ARM', fields: { anchorPoint: '1 1 0.5', axis: '0 0 1' } },
+    { def: 'RAIL', type: 'SliderJoint', body1: 'POST', body2: '', fields: { axis: '0 0 1' } }] });
+  const move = (node: string, ...pose: number[]): Command => ({ op: 'move', node, pose: pose as PoseArray });
+  const axle = (field: string, value: string): object => ({ op: 'field', node: 'AXLE', field, value });
+  expect(jointsOfMoved(draft, [move('POST', 1.5, 0, 0, 0, 0, 0, 1), move('ARM', 1.5, 1, 0, 0, 0, 0, 1)])).toEqual(
+    { together: [axle('anchorPoint', '1.5 1 0.5')], left: [] });
+  expect(jointsOfMoved(draft, [move('ARM', 1, 1.25, 0, 0, 0, 0, 1)])).toEqual(
+    { together: [], left: [{ def: 'AXLE', commands: [axle('anchorPoint', '1 1.25 0.5')] }] });
+  // A quarter turn about y, of both about the post: the rail's axis turns, its other end is the room.
+  const half = Math.SQRT1_2;
+  expect(jointsOfMoved(draft, [move('POST', 1, 0, 0, 0, half, 0, half), move('ARM', 1, 1, 0, 0, half, 0, half)])).toEqual({
+    together: [axle('anchorPoint', '1.5 1 0'), axle('axis', '1 0 0')],
+    left: [{ def: 'RAIL', commands: [{ op: 'field', node: 'RAIL', field: 'axis', value: '1 0 0' }] }] });
+  expect(jointsOfMoved(draft, [move('ARM', 1, 1, 0, 0, 0, 0, 1), { op: 'delete', node: 'POST' }])).toEqual({ together: [], left: [] });
 });
 
 it('agents stay as they were until a step says otherwise', () => {

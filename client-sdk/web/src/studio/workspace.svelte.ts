@@ -3,6 +3,7 @@ import { tick } from 'svelte';
 import { SvelteSet } from 'svelte/reactivity';
 import type { Api } from '../console/api';
 import type { Edit, Vector } from './commands';
+import { jointsOfMoved, type JointsOfMoved } from './picture/left_behind';
 import { Draft, type DraftState, type Outcome } from './draft';
 import type { JointPlan } from './picture/joint';
 import { orderCommands, siblingsOf } from './order';
@@ -42,6 +43,8 @@ export class Workspace {
   published = $state(0);
   /** The joint in the making. */
   joint = $state<JointPlan | null>(null);
+  /** Joints that the last step left where they were when it moved what they join. */
+  private behind = $state.raw<{ revision: number; joints: JointsOfMoved['left'] }>({ revision: -1, joints: [] });
   /** Rules that lead from a step to the one after it do so in a new order, too. */
   rulesFollow = $state(true);
   /** For who does not see it: where what was moved is now. */
@@ -99,7 +102,18 @@ export class Workspace {
     return this.state.view!;
   }
   async edit(id: string, what: string, commands: Edit['commands']): Promise<Outcome> {
-    return this.draft.edit({ id, what, commands });
+    const { together, left } = jointsOfMoved(this.view, commands);
+    const outcome = await this.draft.edit({ id, what, commands: [...commands, ...together] });
+    if (outcome === 'done') this.behind = { revision: this.view.revision, joints: left };
+    return outcome;
+  }
+  /** The joints that the last step left behind, while it is the last. */
+  get leftBehind(): JointsOfMoved['left'] {
+    return this.behind.revision === this.view.revision ? this.behind.joints : [];
+  }
+  async takeAlong(): Promise<void> {
+    const joints = this.leftBehind;
+    await this.edit('', this.words.edits.move(joints.map((j) => j.def).join(', ')), joints.flatMap((j) => j.commands));
   }
   /** Moves a set up (-1) or down (1) among those that it stands with. */
   reorder(path: string, by: -1 | 1): Promise<void> {

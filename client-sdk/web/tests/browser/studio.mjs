@@ -329,6 +329,12 @@ const parts = {
     await page.keyboard.press('Enter');
     await saved();
     assert.ok(Math.abs(sent()[0].pose[4] - Math.SQRT1_2) < 1e-6);
+    // What it turns on goes along when wanted, and is not asked for again.
+    await page.fill(`${field('DRUM/position')} >> nth=1`, '0.9');
+    await page.keyboard.press('Enter');
+    await page.click('.title p:has-text("AXLE: still where it was.") button:text-is("Take it along")');
+    await page.waitForSelector('.title p:has-text("still where it was")', { state: 'detached' });
+    assert.deepEqual(sent().map(({ op, node, field }) => [op, node, field]), [['field', 'AXLE', 'anchorPoint']]);
   },
   async 'a body is hidden, locked and measured in the picture, and the exhibit stays as it is'() {
     await choose('DRUM');

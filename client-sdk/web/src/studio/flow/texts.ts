@@ -16,7 +16,7 @@ export interface WordRow {
 export interface WordGroup {
   /** What the words belong to: a path, or a DEF. */
   owner: string;
-  kind: 'exhibit' | 'body' | 'activity' | 'step' | 'question';
+  kind: 'exhibit' | 'body' | 'activity' | 'step' | 'question' | 'quantity';
   name: string;
   rows: WordRow[];
 }
@@ -63,6 +63,8 @@ export function wordGroups(view: View): WordGroup[] {
     for (const question of childSets(child(activity, 'questionnaire')))
       out.push(groupOf('question', `${base}/questionnaire/${question.name}`, question.name, question, questionWhats(question), languages));
   }
+  for (const quantity of childSets(child(view.metadata, 'quantities')))
+    out.push(groupOf('quantity', `quantities/${quantity.name}`, quantity.name, quantity, ['label'], languages));
   const agents = childSets(child(view.metadata, 'agents')).map((agent) => `agents/${agent.name}`);
   const taken = new Set(agents.filter((agent) => stringAt(view, `${agent}/type`) === 'simulation.grasp')
     .flatMap((agent) => stringsAt(view, `${agent}/bodies`)));

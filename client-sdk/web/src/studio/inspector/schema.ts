@@ -1,6 +1,7 @@
 // What may stand in an exhibit, by the server's own tables: forms are made from them.
 import { fields, list, text } from '../../console/api';
-import { child, childSets, type Meta, type MetaSet, type View } from '../view';
+import { numbersFrom } from '../commands';
+import { child, childSets, type Meta, type MetaSet, type NodeFields, type View } from '../view';
 
 export type KeyType = 'string' | 'strings' | 'number' | 'numbers' | 'vector' | 'rotation' | 'matrix' | 'boolean' | 'set';
 export interface Key {
@@ -124,13 +125,25 @@ export function tableAt(schema: Schema, view: View, path: string): Table | null 
 }
 export const nodeTable = (schema: Schema, type: string): Table | null => schema.nodes.find((t) => t.name === type) ?? null;
 
+/** Of a body that stands for many: theirs, and where several may be named, all of them at once. */
+function copiesOf(body: NodeFields, many: boolean): string[] | null {
+  const copies = child(body.sets.find((s) => s.name === 'mechane:body'), 'copies');
+  const numbers = (key: string): number[] => {
+    const one = child(copies, key);
+    return one?.kind === 'value' ? (numbersFrom([one.value].flat().join(' ')) ?? []) : [];
+  };
+  const count = numbers('count')[0] ?? numbers('positions').length / 3;
+  if (!copies || !(count >= 1)) return null;
+  return [...(many ? [`${body.def}-*`] : []), ...Array.from({ length: Math.min(count, 200) }, (_, i) => `${body.def}-${i + 1}`)];
+}
+
 /** Names that a key may hold, from the draft itself. `path`: of the set around the key. */
-export function namesFor(view: View, kind: string, path: string): string[] {
+export function namesFor(view: View, kind: string, path: string, many = false): string[] {
   const named = (group: string): string[] => (childSets(view.metadata).find((s) => s.name === group)?.children ?? []).map((c) => c.name);
   const activity = /^activities\/([^/]+)/.exec(path)?.[1];
   switch (kind) {
     case 'body':
-      return view.bodies.map((b) => b.def);
+      return view.bodies.flatMap((body) => copiesOf(body, many) ?? [body.def]);
     case 'joint':
       return view.joints.map((j) => j.def);
     case 'agent':
