@@ -397,6 +397,19 @@ export function setLabel(name: string, language: Language): string {
   const [kind, ...rest] = name.split(':');
   return [said(kSetLabels[kind!], language) || kind, rest.join(':')].filter((one) => one !== '').join(' ');
 }
+/** What holds only things with names of their own. */
+const kHolders = ['activities', 'steps', 'questionnaire', 'agents', 'machines', 'quantities', 'visits', 'effects', 'text'];
+/** A path as an educator says it: "use, lift, Rule 1, Comparison" of "activities/use/steps/lift/trigger:1/op". */
+export function placeLabel(path: string, words: { sets: Record<string, string>; whats: Record<string, string> }, language: Language): string {
+  const parts = path.split('/').filter((part, i, all) => !kHolders.includes(part) || i === all.length - 1);
+  return parts.map((part, i) => {
+    if (words.sets[part]) return words.sets[part];
+    if (part.includes(':')) return setLabel(part, language);
+    const [what, code] = part.split('.');
+    if (code !== undefined) return `${words.whats[what!] ?? what} (${code})`;
+    return i > 0 && i === parts.length - 1 ? labelOf(part, language) || part : part;
+  }).join(', ');
+}
 /** What a property is, and in which language that is said. */
 export const docIn = (doc: string, language: Language): { text: string; lang: Language } =>
   (language === 'el' && kGreekDocs[doc] ? { text: kGreekDocs[doc], lang: 'el' } : { text: doc, lang: 'en' });
