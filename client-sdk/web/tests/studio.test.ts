@@ -7,6 +7,7 @@ import { exhibitName, filesOf, isTaken, massOf, nodesOf, plainName } from '../sr
 import { agentsOf, ruleText, stepsOf } from '../src/studio/flow/flow';
 import { jointsOfMoved } from '../src/studio/picture/left_behind';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/picture/joint';
+import { isInPicture, unseenFrom } from '../src/studio/picture/seen';
 import { isOrdered, orderCommands } from '../src/studio/order';
 import { found } from '../src/studio/palette';
 import { addAnswer, addQuestion, freeQuestion, isPlainName, isTakenQuestion, questionsOf, removeAnswer, removeQuestion, renameAnswer,
@@ -166,6 +167,17 @@ it('joints go along where all that they join moves alike; others are named', () 
     together: [axle('anchorPoint', '1.5 1 0'), axle('axis', '1 0 0')],
     left: [{ def: 'RAIL', commands: [{ op: 'field', node: 'RAIL', field: 'axis', value: '1 0 0' }] }] });
   expect(jointsOfMoved(draft, [move('ARM', 1, 1, 0, 0, 0, 0, 1), { op: 'delete', node: 'POST' }])).toEqual({ together: [], left: [] });
+});
+
+it('what lies beside the picture of the first view is told', () => {
+  const draft = viewOf({ views: [{ def: 'FRONT', type: 'Viewpoint', fields: { fieldOfView: '1.5707963' } }],
+    outline: [{ def: 'FRONT', type: 'Viewpoint', pose: [0, 1, 2, 0, 0, 0, 1] }] });
+  // Half of a right angle up and down, two metres before the eye; 16 to 9 of it to each side.
+  for (const [at, seen] of [[[0, 1, 0], true], [[0, 2.9, 0], true], [[0, 3.1, 0], false], [[3.5, 1, 0], true], [[3.6, 1, 0], false],
+    [[0, 1, 4], false]] as const) expect([at, unseenFrom(draft, [...at])]).toEqual([at, seen ? '' : 'FRONT']);
+  const turned: PoseArray = [0, 1, 2, 0, Math.SQRT1_2, 0, Math.SQRT1_2];  // looks along -x
+  expect([isInPicture(turned, 0.8, [-3, 1, 2]), isInPicture(turned, 0.8, [3, 1, 2])]).toEqual([true, false]);
+  expect([unseenFrom(draft, null), unseenFrom(viewOf(null), [0, 0, 0])]).toEqual(['', '']);
 });
 
 it('agents stay as they were until a step says otherwise', () => {

@@ -123,6 +123,7 @@ const kEnglish = {
   takeBack: (n: number) => `Show and unlock all (${n})`,
   isHidden: 'hidden',
   isLocked: 'locked',
+  notSeenFrom: (view: string) => `Visitors, who begin at ${view}, do not see it there.`,
   leftBehind: (joints: string) => `${joints}: still where it was.`,
   takeAlong: 'Take it along',
   joins: (one: string, other: string) => `joins ${one} and ${other}`,

@@ -117,6 +117,7 @@ export const kGreek: StudioWords = {
   takeBack: (n: number) => `Εμφάνιση και ξεκλείδωμα όλων (${n})`,
   isHidden: 'κρυμμένο',
   isLocked: 'κλειδωμένο',
+  notSeenFrom: (view) => `Οι επισκέπτες, που αρχίζουν από την όψη ${view}, δεν το βλέπουν εκεί.`,
   leftBehind: (joints) => `${joints}: έμεινε στη θέση του.`,
   takeAlong: 'Να πάει μαζί',
   joins: (one, other) => `ενώνει: ${one}, ${other}`,

@@ -41,6 +41,11 @@ try {
   await page.selectOption('article form select', scenario);
   await page.click('article form button.main');
   await page.waitForSelector('[role=status]:has-text("is open.")', { timeout: 30_000 });
+  await page.click('summary:text-is("More")');
+  await page.selectOption('label:has-text("Drawn hand") select', 'glove');
+  await page.waitForSelector('[role=status]:has-text("hand is now glove.")');
+  await page.waitForFunction(
+    () => [...document.querySelectorAll('label')].find((l) => l.textContent.startsWith('Drawn hand')).control.value === 'glove');
   await part('Exhibits', 'section:has-text("cannot be changed from here") >> text=--exhibit-key');
   await part('Hours', 'h2:text("Opening hours")');
   await page.uncheck('text=always open');
