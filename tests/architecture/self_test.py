@@ -281,7 +281,7 @@ class TidyTogether(unittest.TestCase):
 
     def test_when_the_time_is_up_what_is_not_known_to_be_clean_is_left_out(self):
         self.check(a="int a();\n")
-        self.assertEqual(self.check("--seconds", "0", a="int a();\n", b="int b();\n"), {"a": "passed", "b": "left out"})
+        self.assertEqual(self.check("--seconds", "0", a="int a();\n", b="int b();\n"), {"a": "passed", "b": "too late"})
 
 
 if __name__ == "__main__":
