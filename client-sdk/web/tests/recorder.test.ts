@@ -83,6 +83,23 @@ it('a crank that was turned is turned as far by the visit, whichever way, and pa
   }
 });
 
+it('a crank that the hand has lost and has back at once was worked once, unless a step ended meanwhile', () => {
+  const turned = (recorder: Recorder): string[] =>
+    recorder.moves(view, world).map((m) => (m.kind === 'turn' ? `${m.kind} ${m.turns.toFixed(1)}` : m.kind));
+  const record = (gap: number, step: boolean): string[] => {
+    const recorder = new Recorder();
+    for (let i = 0; i < 20; ++i) {
+      const from = 1000 + i * (200 + gap);
+      hold(recorder, 'CRANK', from, 200, (s) => crankAt(kTurn * 0.05 * (i + s / 0.2)));  // each a twentieth of a turn
+      if (step && i === 9) recorder.hear(event('step_started', from + 250), world);
+    }
+    return turned(recorder);
+  };
+  expect(record(300, false)).toEqual(['reach', 'grasp', 'turn 1.0', 'release', 'wait']);
+  expect(record(300, true)).toEqual(['reach', 'grasp', 'turn 0.5', 'release', 'wait', 'reach', 'grasp', 'turn 0.5', 'release', 'wait']);
+  expect(record(2500, false).filter((move) => move === 'grasp').length).toBe(20);
+});
+
 it('to and fro is a swing, there and back are two turns', () => {
   const swung = Array.from({ length: 1000 }, (_, i) => ({ at_s: i * 0.01, angle: -0.5 * Math.sin(kTurn * 0.6 * i * 0.01) }));
   const { work: [swing] } = workedAngles(swung);

@@ -16,6 +16,8 @@ const kMostHolds = 60;
 /** What was let go is where it came to rest by then: a place takes it home. */
 const kSettles = 600;
 const kSettlesWithin_m = 0.15;
+/** What a hinge or a slide holds was lost, not let go of, where the hand has it back so soon. */
+const kBackWithin = 2000;
 /** A person's hand. */
 const kMost_mPerS = 0.6;
 const kReach_s = 2;
@@ -176,7 +178,7 @@ export class Recorder {
 
   /** The visit so far. What the author thought between two moves is left out, what the exhibit did by itself is waited for. */
   moves(view: View, world: KioskState): Move[] {
-    const acts = [...this.holds, ...this.presses].sort((a, b) => startOf(a) - startOf(b));
+    const acts = [...this.holdsIn(world), ...this.presses].sort((a, b) => startOf(a) - startOf(b));
     const out: Move[] = [];
     let free = 0;
     for (const act of acts) {
@@ -186,6 +188,19 @@ export class Recorder {
       free = 'at' in act ? act.at : (act.to ?? this.tick);
     }
     if (out.length > 0) out.push({ kind: 'wait', seconds: Math.max(seconds(this.stepWithin(free, Infinity)), 1) });
+    return out;
+  }
+  /** One hold for each time that a thing was worked, however often the hand lost it. */
+  private holdsIn(world: KioskState): Hold[] {
+    const guided = new Set(world.presentation?.affordances.filter((a) => a.kind === 'turns' || a.kind === 'slides').map((a) => a.object));
+    const out: Hold[] = [];
+    for (const hold of this.holds) {
+      const before = out.at(-1);
+      const lost = before?.to != null && before.body === hold.body && guided.has(hold.object) && hold.from - before.to <= kBackWithin &&
+        this.stepWithin(before.to, hold.from) === 0 && !this.presses.some(({ at }) => at > before.to! && at < hold.from);
+      if (!lost) out.push(hold);
+      else out.splice(-1, 1, { ...hold, from: before.from, grip: before.grip ?? hold.grip, samples: [...before.samples, ...hold.samples] });
+    }
     return out;
   }
   /** From a moment until the last step that began before another, and a little; 0: none did. */
