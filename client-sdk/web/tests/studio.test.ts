@@ -159,6 +159,8 @@ it('joints go along where all that they join moves alike; others are named', () 
   const axle = (field: string, value: string): object => ({ op: 'field', node: 'AXLE', field, value });
   expect(jointsOfMoved(draft, [move('POST', 1.5, 0, 0, 0, 0, 0, 1), move('ARM', 1.5, 1, 0, 0, 0, 0, 1)])).toEqual(
     { together: [axle('anchorPoint', '1.5 1 0.5')], left: [] });
+  // A drag rounds each pose for itself.
+  expect(jointsOfMoved(draft, [move('POST', 1.50001, 0, 0, 0, 0, 0, 1), move('ARM', 1.5, 1, 0, 0, 0, 0, 1)]).left).toEqual([]);
   expect(jointsOfMoved(draft, [move('ARM', 1, 1.25, 0, 0, 0, 0, 1)])).toEqual(
     { together: [], left: [{ def: 'AXLE', commands: [axle('anchorPoint', '1 1.25 0.5')] }] });
   // A quarter turn about y, of both about the post: the rail's axis turns, its other end is the room.

@@ -145,6 +145,8 @@ const parts = {
     assert.equal(gateway.draft.bodies.find((b) => b.def === 'LOAD').fields.mass, '62');
     // Their mistake is a problem, which leads to its place.
     await page.click('button:text-is("1 problem")');
+    await page.waitForSelector('.problems button.link');
+    await accessible('problems');
     await page.click('.problems button.link');
     await page.waitForSelector('[data-field="activities/use/steps/lift/trigger:1/next"] select:focus');
     await page.selectOption('[data-field="activities/use/steps/lift/trigger:1/next"] select', 'guide');
@@ -332,6 +334,8 @@ const parts = {
     // What it turns on goes along when wanted, and is not asked for again.
     await page.fill(`${field('DRUM/position')} >> nth=1`, '0.9');
     await page.keyboard.press('Enter');
+    await page.waitForSelector('.title p:has-text("AXLE: still where it was.")');
+    await accessible('left-behind');
     await page.click('.title p:has-text("AXLE: still where it was.") button:text-is("Take it along")');
     await page.waitForSelector('.title p:has-text("still where it was")', { state: 'detached' });
     assert.deepEqual(sent().map(({ op, node, field }) => [op, node, field]), [['field', 'AXLE', 'anchorPoint']]);

@@ -40,7 +40,7 @@ export function freeJointName(view: View): string {
 export const movableBodies = (view: View): string[] => view.bodies.map((b) => b.def).filter((def) => outlineAt(view, def)?.movable);
 
 const three = (numbers: readonly number[] | null): Vector | null => (numbers?.length === 3 ? (numbers as Vector) : null);
-const neat = (v: Vector3): Vector => v.toArray().map((x) => Number(x.toFixed(7)) + 0) as Vector;
+export const neat = (v: Vector3): Vector => v.toArray().map((x) => Number(x.toFixed(7)) + 0) as Vector;
 
 export function axisOf(plan: JointPlan, pose: PoseArray | null): Vector {
   const along = new Vector3(...kAxes.map((axis) => (axis === plan.axis ? 1 : 0)));
