@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common_lib"))
 from text import clock  # noqa: E402
 
 _PR_SET_CHILD_SUBREAPER = 36
+PAST_LIMIT = 124  # as timeout(1) has it
 
 
 def adopt_orphans() -> None:
@@ -130,7 +131,7 @@ class Beside:
 
 
 def run(command: list[str], log: Path, limit_s: float, env: dict[str, str] | None = None) -> int:
-    """Returns the exit status; 124 where the command ran past its limit and was ended. Appends to the log."""
+    """Returns the exit status; PAST_LIMIT where the command ran past its limit and was ended. Appends to the log."""
     with log.open("a") as out:
         out.write(f"$ {' '.join(command)}\n")
         out.flush()
@@ -145,7 +146,7 @@ def run(command: list[str], log: Path, limit_s: float, env: dict[str, str] | Non
                     shown = _show_progress(log, started, shown)
                 if time.monotonic() - started > limit_s:
                     out.write(f"\nended after {limit_s:.0f} s\n")
-                    return 124
+                    return PAST_LIMIT
         finally:
             if process.poll() is None:
                 _end_group(process)

@@ -13,7 +13,8 @@ _NOT_RUN = {"skipped": "", "left out": LEFT_OUT, "too late": TOO_LATE}
 @dataclass
 class Case:
     name: str
-    outcome: str  # passed, failed, skipped (the machine lacks something), left out (another build runs it), too late (see deploy/test --within)
+    # passed, failed, skipped (the machine lacks something), left out (another build runs it), too late (see deploy/test --within)
+    outcome: str
     detail: str = ""
     seconds: float = 0.0
 

@@ -62,9 +62,12 @@ def build(preset: str, *targets: str, settings: tuple[str, ...] = (), until: flo
     def run(log: Path) -> Tally:
         name = f"build {preset}"
         configure, make = _build_commands(preset, targets, settings)
-        if processes.run(configure, log, limit_s=300) or processes.run(make, log, limit_s=min(3600.0, until - time.monotonic())):
-            return Tally([Case(name, "too late" if time.monotonic() >= until else "failed", tail(log))])
-        return Tally([Case(name, "passed")])
+        status = (processes.run(configure, log, limit_s=300)
+                  or processes.run(make, log, limit_s=min(3600.0, until - time.monotonic())))
+        if not status:
+            return Tally([Case(name, "passed")])
+        was_ended = status == processes.PAST_LIMIT and time.monotonic() >= until
+        return Tally([Case(name, "too late" if was_ended else "failed", tail(log))])
 
     configure, make = map(shlex.join, _build_commands(preset, targets, settings))
     return Phase(f"build {preset}", run, preset, f"{{ test -f build/{preset}/build.ninja || {configure}; }} && {make}", until)
@@ -124,8 +127,10 @@ def programs(preset: str, only: str = "", leave_out: str = "none", others: bool 
         def run_all(some: list[Program]) -> Tally:
             tally = Tally()
             for program in some:
-                in_time = time.monotonic() < until
-                tally.add(run_program(program, log, environment) if in_time else Tally([Case(f"{preset}.{program.name}", "too late")]))
+                if time.monotonic() < until:
+                    tally.add(run_program(program, log, environment))
+                else:
+                    tally.cases.append(Case(f"{preset}.{program.name}", "too late"))
             return tally
 
         alone = [program for program in found if "alone" in program.labels]
@@ -283,7 +288,7 @@ def run_phases(planned: list[Phase], done: dict[str, Ran]) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="deploy/test")
     parser.add_argument("--quick", action="store_true", help="one build, the tests that need no network, style")
-    parser.add_argument("--within", type=float, default=float("inf"), metavar="MINUTES",
+    parser.add_argument("--within", type=float, default=math.inf, metavar="MINUTES",
                         help="of a full run: after these the sanitizers, fuzzers and clang-tidy begin with no more")
     parser.add_argument("--repeat", type=int, metavar="N", help=f"in-process tests N times, end-to-end and slow ones N / {RARE} times")
     parser.add_argument("--seed", type=int, default=random.randrange(1_000_000), help="of --repeat")

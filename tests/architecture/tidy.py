@@ -237,7 +237,7 @@ def main() -> int:
     if arguments.junit:
         write_junit(arguments.junit, "tidy", tally)
     too_late = tally.count("too late")
-    print(f"tidy: {len(entries)} sources, {len(tally.failed)} with faults" + (f", {too_late} left out for lack of time" if too_late else ""))
+    print(f"tidy: {len(entries)} sources, {len(tally.failed)} with faults" + (f", {too_late} too late" if too_late else ""))
     return 1 if tally.failed else 0
 
 

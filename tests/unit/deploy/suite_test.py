@@ -74,8 +74,8 @@ class Results(unittest.TestCase):
         self.assertEqual(cases[1].detail, "not within 30 s")
 
     def test_what_is_written_is_read_again(self):
-        cases = [Case("a.One", "passed", seconds=0.125), Case("a.Two", "failed", "why\nso", 3), Case("a.Three", "skipped"), Case("a.Four", "left out"),
-                 Case("a.Five", "too late")]
+        cases = [Case("a.One", "passed", seconds=0.125), Case("a.Two", "failed", "why\nso", 3), Case("a.Three", "skipped"),
+                 Case("a.Four", "left out"), Case("a.Five", "too late")]
         write_junit(self.file, "a", Tally(list(cases)))
         self.assertEqual([(c.name, c.outcome, c.seconds) for c in read_junit(self.file).cases], [(c.name, c.outcome, c.seconds) for c in cases])
 
@@ -220,6 +220,8 @@ class Phases(unittest.TestCase):
                                          suite.Phase("test release", lambda log: Tally([Case("b", "passed")]), "release"))
         self.assertEqual({name: [c.outcome for c in ran.tally.cases] for name, ran in done.items()},
                          {"build-slow": ["too late"], "test-slow": ["too late"], "test-release": ["passed"]})
+        with mock.patch.object(suite, "_build_commands", lambda *_: (["true"], ["false"])):  # no time is an excuse for a build that fails
+            self.assertEqual([c.outcome for c in suite.build("bad", until=time.monotonic()).run(suite.OUT / "log").cases], ["failed"])
         self.assertIn("1 too late", said)
         self.assertIn("not run: the time is up", said)
         ends = {phase.title for phase in suite.phases(False, until=soon) if phase.until == soon}
