@@ -177,7 +177,9 @@ const kEnglish = {
   missingCount: (n: number) => (n === 1 ? '1 text is missing' : `${n} texts are missing`),
   nothingMissing: 'All texts that visitors need are there',
   onlyMissing: 'Only missing ones',
-  kinds: { exhibit: 'Exhibit', body: 'Body', activity: 'Activity', step: 'Step', question: 'Question', quantity: 'Quantity' } as Record<string, string>,
+  kinds: {
+    exhibit: 'Exhibit', body: 'Body', activity: 'Activity', step: 'Step', question: 'Question', quantity: 'Quantity',
+  } as Record<string, string>,
   whats: {
     title: 'Title', goal: 'What is learnt', caption: 'Caption', hint: 'Hint', narration: 'Narration', question: 'Question',
     low: 'Low end', high: 'High end', name: 'Name', label: 'On its gauge',

@@ -43,7 +43,7 @@ export class Workspace {
   published = $state(0);
   /** The joint in the making. */
   joint = $state<JointPlan | null>(null);
-  /** Joints that the last step left where they were when it moved what they join. */
+  /** Joints that stayed where they were in the step that led to this revision, while a body of theirs moved. */
   private behind = $state.raw<{ revision: number; joints: JointsOfMoved['left'] }>({ revision: -1, joints: [] });
   /** Rules that lead from a step to the one after it do so in a new order, too. */
   rulesFollow = $state(true);
@@ -107,7 +107,7 @@ export class Workspace {
     if (outcome === 'done') this.behind = { revision: this.view.revision, joints: left };
     return outcome;
   }
-  /** The joints that the last step left behind, while it is the last. */
+  /** The joints that the newest step left behind. */
   get leftBehind(): JointsOfMoved['left'] {
     return this.behind.revision === this.view.revision ? this.behind.joints : [];
   }

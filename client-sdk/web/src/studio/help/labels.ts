@@ -397,10 +397,10 @@ export function setLabel(name: string, language: Language): string {
   const [kind, ...rest] = name.split(':');
   return [said(kSetLabels[kind!], language) || kind, rest.join(':')].filter((one) => one !== '').join(' ');
 }
-/** What holds only things with names of their own. */
+/** Sets that a path leads through, and that say nothing to an educator. */
 const kHolders = ['activities', 'steps', 'questionnaire', 'agents', 'machines', 'quantities', 'visits', 'effects', 'text'];
 /** A path as an educator says it: "use, lift, Rule 1, Comparison" of "activities/use/steps/lift/trigger:1/op". */
-export function placeLabel(path: string, words: { sets: Record<string, string>; whats: Record<string, string> }, language: Language): string {
+export function placeLabel(path: string, words: Record<'sets' | 'whats', Record<string, string>>, language: Language): string {
   const parts = path.split('/').filter((part, i, all) => !kHolders.includes(part) || i === all.length - 1);
   return parts.map((part, i) => {
     if (words.sets[part]) return words.sets[part];

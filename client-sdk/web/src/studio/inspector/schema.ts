@@ -125,7 +125,7 @@ export function tableAt(schema: Schema, view: View, path: string): Table | null 
 }
 export const nodeTable = (schema: Schema, type: string): Table | null => schema.nodes.find((t) => t.name === type) ?? null;
 
-/** Of a body that stands for many: theirs, and where several may be named, all of them at once. */
+/** The names of a body's copies, after the name for all of them where a list may hold it. Null: the body has no copies. */
 function copiesOf(body: NodeFields, many: boolean): string[] | null {
   const copies = child(body.sets.find((s) => s.name === 'mechane:body'), 'copies');
   const numbers = (key: string): number[] => {

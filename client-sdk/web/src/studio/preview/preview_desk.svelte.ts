@@ -114,7 +114,7 @@ export class PreviewDesk {
     this.acts = 0;
     return this.order(() => this.requests.playVisit(this.name, visit));
   }
-  /** The same, of the draft as it is stored: it goes into what runs, or is started anew, first. */
+  /** Plays a visit of the draft as it is stored. What runs takes over the newest edits first, or starts anew. */
   playSoon(visit: string): void {
     this.playNext = visit;
     this.catchUp();
@@ -190,7 +190,7 @@ export class PreviewDesk {
     this.catchUp();
     if (said.state !== 'none' && said.revision > (this.draft.state.view?.revision ?? 0)) void this.draft.refresh();
   }
-  /** What runs becomes the draft as it is stored; then the visit is played that waits for it. */
+  /** Brings what runs up to the stored draft, and plays the visit that waits for that. */
   private catchUp(): void {
     const { view, waiting } = this.draft.state;
     if (!this.runs || !view || waiting > 0) return;
@@ -206,7 +206,7 @@ export class PreviewDesk {
       if (!view.problems.some((p) => p.severity === 'error')) this.carryOn(view.revision);
     }
   }
-  /** What was edited meanwhile goes into the world that runs; once for each state of the draft. Buttons stay: nobody has ordered it. */
+  /** What was edited meanwhile goes into the world that runs; once for each state of the draft. It disables no button. */
   private carryOn(revision: number): void {
     this.carried = revision;
     this.line = this.line.then(() => this.ask(() => this.requests.editPreview(this.name, revision).catch((error: unknown) => {

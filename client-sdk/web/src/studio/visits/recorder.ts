@@ -16,7 +16,7 @@ const kMostHolds = 60;
 /** What was let go is where it came to rest by then: a place takes it home. */
 const kSettles = 600;
 const kSettlesWithin_m = 0.15;
-/** What a hinge or a slide holds was lost, not let go of, where the hand has it back so soon. */
+/** In ticks. A hand that takes a crank or a slider again this soon had lost it, and did not mean to let go. */
 const kBackWithin = 2000;
 /** A person's hand. */
 const kMost_mPerS = 0.6;
@@ -190,7 +190,7 @@ export class Recorder {
     if (out.length > 0) out.push({ kind: 'wait', seconds: Math.max(seconds(this.stepWithin(free, Infinity)), 1) });
     return out;
   }
-  /** One hold for each time that a thing was worked, however often the hand lost it. */
+  /** The holds; those between which the hand lost a crank or a slider are one. */
   private holdsIn(world: KioskState): Hold[] {
     const guided = new Set(world.presentation?.affordances.filter((a) => a.kind === 'turns' || a.kind === 'slides').map((a) => a.object));
     const out: Hold[] = [];
