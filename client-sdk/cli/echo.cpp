@@ -393,6 +393,36 @@ Json to_json(const proto::ExhibitRequest& s) {
   j.update({{"verb", s.verb}, {"exhibit", text(s.exhibit)}, {"now", s.now}});
   return j;
 }
+Json place(const proto::WireDevicePlace& place) {
+  return {{"p_WD", list(place.p_WD)}, {"turn_rad", place.turn_rad}, {"scale", place.scale}};
+}
+
+Json to_json(const proto::DeviceStatus& s) {
+  Json j = head(s);
+  j.update({{"kiosk", text(s.kiosk)}, {"user", s.user}, {"session", s.session}, {"wanted_hz", s.wanted_hz}});
+  j.update({{"peak_force_n", s.peak_force_n},
+            {"continuous_force_n", s.continuous_force_n},
+            {"peak_torque_nm", s.peak_torque_nm},
+            {"peak_finger_force_n", s.peak_finger_force_n},
+            {"max_stiffness_n_per_m", s.max_stiffness_n_per_m},
+            {"workspace_min_m", list(s.workspace_min_m)},
+            {"workspace_max_m", list(s.workspace_max_m)},
+            {"place", place(s.place)}});
+  j.update({{"rate_hz", s.rate_hz}, {"late_us", s.late_us}, {"p_WH", list(s.p_WH)}, {"force_n", s.force_n}});
+  j.update({{"temperature", s.temperature},
+            {"testing", s.testing},
+            {"test_force_n", s.test_force_n},
+            {"test_energy_j", s.test_energy_j}});
+  j.update({{"answered", s.answered}, {"refusal", text(s.refusal)}});
+  return j;
+}
+
+Json to_json(const proto::DeviceRequest& s) {
+  Json j = head(s);
+  j.update({{"kiosk", text(s.kiosk)}, {"id", s.id}, {"user", s.user}, {"action", s.action}, {"place", place(s.place)}});
+  return j;
+}
+
 Json to_json(const proto::DisplayRequest& s) {
   Json j = head(s);
   j.update({{"kiosk", text(s.kiosk)}, {"display", text(s.display)}, {"session", s.session}, {"id", s.id}});
@@ -522,12 +552,12 @@ constexpr Topic topic() {
 
 int run_echo(const EchoOptions& options) {
   static constexpr Topic kTopics[] = {
-      topic<proto::HapticInput>(),    topic<proto::HapticOutput>(),      topic<proto::SceneFrame>(),
-      topic<proto::SceneObject>(),    topic<proto::WorldStatus>(),       topic<proto::Event>(),
-      topic<proto::Command>(),        topic<proto::WorldAssignment>(),   topic<proto::ServerStatus>(),
-      topic<proto::KioskStatus>(),    topic<proto::WorldPresentation>(), topic<proto::DisplayStatus>(),
-      topic<proto::DisplayRequest>(), topic<proto::ViewerHead>(),        topic<proto::ExhibitStatus>(),
-      topic<proto::ExhibitRequest>()};
+      topic<proto::HapticInput>(),  topic<proto::HapticOutput>(),      topic<proto::SceneFrame>(),
+      topic<proto::SceneObject>(),  topic<proto::WorldStatus>(),       topic<proto::Event>(),
+      topic<proto::Command>(),      topic<proto::WorldAssignment>(),   topic<proto::ServerStatus>(),
+      topic<proto::KioskStatus>(),  topic<proto::WorldPresentation>(), topic<proto::DisplayStatus>(),
+      topic<proto::DeviceStatus>(), topic<proto::DeviceRequest>(),     topic<proto::DisplayRequest>(),
+      topic<proto::ViewerHead>(),   topic<proto::ExhibitStatus>(),     topic<proto::ExhibitRequest>()};
   for (const Topic& t : kTopics) {
     if (options.topic == t.name) return t.run(options);
   }

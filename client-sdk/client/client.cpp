@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "client-sdk/client/device_link.hpp"
 #include "client-sdk/client/device_watch.hpp"
 #include "client-sdk/client/display_link.hpp"
 #include "client-sdk/client/hand_link.hpp"
@@ -95,7 +96,16 @@ class ClientImpl final : public Client {
     return display_ ? display_->viewer_head() : std::nullopt;
   }
   void tell_device(const DeviceReport& report) override;
+  bool tell_details(const DeviceDetails& details) override { return device_link_ && device_link_->tell(details); }
+  [[nodiscard]] std::vector<DeviceRequest> take_device_requests() override {
+    return device_link_ ? device_link_->take_requests() : std::vector<DeviceRequest>();
+  }
   [[nodiscard]] std::vector<DeviceReport> devices() override;
+  [[nodiscard]] std::vector<DeviceDetails> device_details() override;
+  [[nodiscard]] Expected<std::uint64_t> ask_device(const DeviceRequest& request) override {
+    if (auto ok = check(request); !ok) return tl::unexpected(ok.error());
+    return watch_ ? watch_->ask(config_.kiosk, request) : 0;
+  }
   [[nodiscard]] std::vector<DisplayRequest> take_display_requests() override {
     return display_ ? display_->take_requests() : std::vector<DisplayRequest>();
   }
@@ -119,6 +129,7 @@ class ClientImpl final : public Client {
   [[nodiscard]] LinkState judge(TimePoint at, bool server_alive, std::string& why) const;
   void enter(LinkState state, std::string why);
   std::uint64_t send_command(proto::CommandKind kind, const std::string& argument);
+  [[nodiscard]] std::vector<KioskDevice> heard_devices();
 
   const ClientConfig config_;
   const std::uint64_t session_;
@@ -155,6 +166,7 @@ class ClientImpl final : public Client {
   realtime::Wakeup news_;
   std::unique_ptr<HandLink> hand_;
   std::unique_ptr<DisplayLink> display_;
+  std::unique_ptr<DeviceLink> device_link_;
   std::unique_ptr<DeviceWatch> watch_;  // only for a hand or a display
   proto::Reader<proto::ServerStatus> server_reader_;
   proto::Reader<proto::WorldAssignment> assignment_reader_;
@@ -170,6 +182,9 @@ Expected<void> ClientImpl::open() {
     auto hand = HandLink::create(participant_, config_, session_);
     if (!hand) return tl::unexpected<Error>(hand.error());
     hand_ = std::move(*hand);
+    auto device = DeviceLink::create(participant_, config_.kiosk, config_.user, session_);
+    if (!device) return tl::unexpected<Error>(device.error());
+    device_link_ = std::move(*device);
   }
   if (!config_.display.empty()) {
     auto display = DisplayLink::create(participant_, config_.kiosk, config_.display, session_);
@@ -426,17 +441,31 @@ void ClientImpl::tell_device(const DeviceReport& report) {
   news_.signal();
 }
 
-/// A second program of a hand waits until it is free: what it has is not what the visitor touches.
+/// By user. A second program of a hand waits until it is free: what it has is not what the visitor touches.
+std::vector<KioskDevice> ClientImpl::heard_devices() {
+  std::vector<KioskDevice> all;
+  if (!watch_) return all;
+  auto told = watch_->devices();
+  const std::lock_guard lock(mutex_);
+  for (auto& [session, device] : told) {
+    const std::uint64_t owner = assignment_ ? assignment_->owners[device.report.user].session : 0;
+    if (owner == 0 || owner == session) all.push_back(std::move(device));
+  }
+  std::ranges::stable_sort(all, {}, [](const KioskDevice& one) { return one.report.user; });
+  return all;
+}
+
 std::vector<DeviceReport> ClientImpl::devices() {
   std::vector<DeviceReport> all;
-  if (!watch_) return all;
-  const auto told = watch_->devices();
-  const std::lock_guard lock(mutex_);
-  for (const auto& [session, device] : told) {
-    const std::uint64_t owner = assignment_ ? assignment_->owners[device.report.user].session : 0;
-    if (owner == 0 || owner == session) all.push_back(device.report);
-  }
-  std::ranges::stable_sort(all, {}, &DeviceReport::user);
+  for (KioskDevice& one : heard_devices())
+    all.push_back(std::move(one.report));
+  return all;
+}
+
+std::vector<DeviceDetails> ClientImpl::device_details() {
+  std::vector<DeviceDetails> all;
+  for (KioskDevice& one : heard_devices())
+    if (one.details) all.push_back(std::move(*one.details));
   return all;
 }
 

@@ -4,10 +4,11 @@
 #include <string>
 
 #include "client-sdk/gateway/site.hpp"
+#include <mechane/client/devices.hpp>
 
 namespace mechane::gateway {
 
-// What the studio's API does for addresses that end so: "preview", "preview/pace", "preview/visit", "preview/stop". The caller checks
+// What the studio's API does for addresses that end so: "preview", "preview/pace", "preview/visit", "preview/device", "preview/stop". The caller checks
 // roles and writes the audit log. On the loop's thread, as the site.
 
 [[nodiscard]] bool is_preview_verb(const std::string& verb);
@@ -28,5 +29,8 @@ struct PaceWish {
 [[nodiscard]] Expected<PaceWish> parse_pace(const std::string& body);
 /// {"visit": NAME}; the name may be empty. Errors: invalid_value.
 [[nodiscard]] Expected<std::string> parse_visit_order(const std::string& body);
+/// {"user": 0, "action": "test"}, and with the action "place": {"place": {"center_m": [X, Y, Z], "turn_rad": A, "scale": S}}. Errors:
+/// invalid_value.
+[[nodiscard]] Expected<client::DeviceRequest> parse_device_order(const std::string& body);
 
 }  // namespace mechane::gateway

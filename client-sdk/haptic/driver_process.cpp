@@ -196,6 +196,11 @@ client::HandSample DriverProcess::read(Duration) noexcept {
   const TimePoint now = std::chrono::steady_clock::now();
   came_ = (*link_)->states.take_newest(newest_) || came_;
   newest_at_.store(newest_.at);
+  client::DevicePlace place;
+  if (places_.take_newest(place)) {
+    workspace_.put(place);
+    speed_.forget();
+  }
   const mechane_device_state& state = newest_.value;
   const bool is_new = std::exchange(came_, false);
   if (is_new)

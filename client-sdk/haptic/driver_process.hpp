@@ -13,6 +13,7 @@
 #include "client-sdk/haptic/hand_calibration.hpp"
 #include "client-sdk/haptic/hand_speed.hpp"
 #include "client-sdk/haptic/workspace.hpp"
+#include "server/realtime/mailbox.hpp"
 
 namespace mechane::haptic {
 
@@ -24,7 +25,7 @@ struct DriverProcessConfig {
   double hand_scale = 1;                      ///< of a visitor whose hand the device does not measure
 };
 
-/// open(), close(), check() and the description: main thread. wait(), read(), write() and condition(): the loop's thread.
+/// open(), close(), check(), put() and the description: main thread. wait(), read(), write() and condition(): the loop's thread.
 class DriverProcess final : public Device {
  public:
   explicit DriverProcess(DriverProcessConfig config) : config_(std::move(config)), workspace_(config_.workspace) {}
@@ -53,6 +54,10 @@ class DriverProcess final : public Device {
   /// opened anew.
   [[nodiscard]] Expected<std::optional<std::string>> check();
 
+  /// Puts the workspace elsewhere: the hand is then somewhere else, and its speed is that of what comes after. The caller sees to it that
+  /// no force is rendered meanwhile.
+  void put(const client::DevicePlace& place) noexcept { places_.publish(place); }
+
   [[nodiscard]] hand::GovernorConfig limits() const override;
   [[nodiscard]] double continuous_force_n() const override { return info_.continuous_force_n; }
   [[nodiscard]] bool renders() const override { return info_.output != MECHANE_OUTPUT_NONE; }
@@ -68,6 +73,7 @@ class DriverProcess final : public Device {
 
   DriverProcessConfig config_;
   Workspace workspace_;
+  realtime::Mailbox<client::DevicePlace> places_;
   bool clutched_ = false;
   std::optional<SharedLink> link_;
   pid_t process_ = -1;

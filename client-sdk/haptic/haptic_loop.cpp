@@ -153,6 +153,12 @@ void HapticLoop::tick(TimePoint now, Duration dt) noexcept {
   stats_.force_max_n = std::max(stats_.force_max_n, force_n);
 }
 
+void HapticLoop::begin_anew() noexcept {
+  governor_.reset(governed_);
+  click_.forget();
+  X_WH_before_.reset();
+}
+
 bool HapticLoop::release(TimePoint now, Duration dt) noexcept {
   const HandSample input = device_.read(dt);
   render(input, now, dt, false);

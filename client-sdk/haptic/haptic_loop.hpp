@@ -73,6 +73,8 @@ class HapticLoop {
   void tick(TimePoint now, Duration dt) noexcept;
   /// Ramps the force down and out. True when the device renders exactly zero.
   [[nodiscard]] bool release(TimePoint now, Duration dt) noexcept;
+  /// Before the first tick after a release(), where the hand may be somewhere else by now: the next force is ramped up as after a silence.
+  void begin_anew() noexcept;
 
   [[nodiscard]] const LoopStats& stats() const noexcept { return stats_; }
   /// From sending a hand to receiving the force that answers it.

@@ -10,11 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/haptic/calibration_course.hpp"
+#include "client-sdk/haptic/device_desk.hpp"
 #include "client-sdk/haptic/device_thread.hpp"
 #include "client-sdk/haptic/driver_process.hpp"
 #include "client-sdk/haptic/hand_recorder.hpp"
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/link_news.hpp"
+#include "client-sdk/haptic/loop_turns.hpp"
 #include "client-sdk/haptic/virtual_hand.hpp"
 #include "server/base/whole_file.hpp"
 #include "server/hand/hand_skeleton.hpp"
@@ -198,34 +200,6 @@ int report(const Arguments& a, const nlohmann::json& found) {
   return 1;
 }
 
-/// The loop as its thread runs it, and as the main thread ends it.
-class Turns {
- public:
-  Turns(haptic::HapticLoop& loop, haptic::HandRecorder* recorder) : loop_(loop), recorder_(recorder) {}
-  /// The loop's thread.
-  void turn(TimePoint now, Duration dt) noexcept {
-    if (!leave_.load(std::memory_order_relaxed)) {
-      loop_.tick(now, dt);
-      if (recorder_ != nullptr) recorder_->note(loop_.hand(), now);
-    } else if (loop_.release(now, dt)) {
-      released_.store(true, std::memory_order_relaxed);
-    }
-  }
-  /// The main thread: the force is ramped down before the loop ends, so that the hand does not feel the program stop.
-  void end() {
-    leave_ = true;
-    SystemClock clock;
-    for (int i = 0; i < 100 && !released_; ++i)
-      clock.sleep_until(clock.now() + std::chrono::milliseconds(10));
-  }
-
- private:
-  haptic::HapticLoop& loop_;
-  haptic::HandRecorder* recorder_;
-  std::atomic<bool> leave_{false};
-  std::atomic<bool> released_{false};
-};
-
 /// Writes what was recorded. False: no more can be.
 bool keep(haptic::HandRecorder& recorder) {
   const auto written = recorder.write();
@@ -364,7 +338,15 @@ int run_virtual(const Arguments& a, const std::string& options, Link& link, hapt
   config.name = "haptic-loop";
   config.fifo_priority = a.client.fifo_priority;
   realtime::PeriodicThread thread(config, clock);
-  Turns turns(**loop, recorder);
+  haptic::LoopTurns turns(**loop, recorder);
+  client::DeviceDetails details{.place = {.p_WD = center_of(a)}};
+  const hand::GovernorConfig limits = device->limits();
+  details.limits = {.wanted_hz = 1 / kTickSeconds,
+                    .peak_force_n = limits.max_force_n,
+                    .continuous_force_n = device->continuous_force_n(),
+                    .peak_torque_nm = limits.max_torque_nm,
+                    .peak_finger_force_n = limits.max_finger_force_n};
+  TimePoint next_details;
   const auto started = thread.start([&](const realtime::TickTiming& timing) {
     device->intend(intent(static_cast<double>(timing.index) * kTickSeconds));
     turns.turn(timing.woke, config.period * static_cast<std::int64_t>(1 + timing.skipped));
@@ -372,9 +354,10 @@ int run_virtual(const Arguments& a, const std::string& options, Link& link, hapt
   if (!started) return log::error(started.error()), 2;
   wait_for_end(a, link, recorder, [&] {
     tell_state(link.client, told, (*loop)->device_state());
+    haptic::turn_down(link.client, turns, details, clock.now(), next_details);
     return true;
   });
-  turns.end();
+  (void)turns.pause();
   thread.stop();
   Record record;
   add(record, **loop);
@@ -384,13 +367,10 @@ int run_virtual(const Arguments& a, const std::string& options, Link& link, hapt
   return report(a, json);
 }
 
-haptic::DriverProcessConfig driver_config(const Arguments& a) {
+haptic::DriverProcessConfig driver_config(const Arguments& a, const client::DevicePlace& place) {
   const int fifo = a.client.fifo_priority;
   return {.device = haptic::parse_device_name(a.device),
-          .workspace = {.p_WD = center_of(a),
-                        .turn_rad = a.turn_deg * kPi / 180,
-                        .scale = a.scale,
-                        .clutch_button = a.clutch == 0 ? 0 : 1u << static_cast<unsigned>(a.clutch - 1)},
+          .workspace = {.place = place, .clutch_button = a.clutch == 0 ? 0 : 1u << static_cast<unsigned>(a.clutch - 1)},
           .fifo_priority = fifo == 0 ? 0 : std::min(fifo + 1, 99),
           .hand_scale = a.hand_length_m / hand::kHandLength_m};
 }
@@ -403,7 +383,7 @@ client::DeviceReport report_of(const mechane_device_info& info) {
 
 /// Opens the glove for it, and lets it go.
 Expected<std::optional<haptic::HandCalibration>> calibrated(const Arguments& a, client::Client& client) {
-  haptic::DriverProcess glove(driver_config(a));
+  haptic::DriverProcess glove(driver_config(a, {}));
   if (auto opened = glove.open(); !opened) return tl::unexpected(opened.error());
   if (glove.info().hand != MECHANE_HAND_GLOVE)
     return fail(ErrorCode::conflict, "only a glove can be calibrated", a.device, "start it without --calibrate");
@@ -447,30 +427,34 @@ bool calibrates_again(const Arguments& a, const haptic::HandMotion& motion) {
 
 /// The device sets the pace of its loop. Returns the program's status; none: its glove has to be fitted to a hand first.
 std::optional<int> run_device(const Arguments& a, Link& link, haptic::HandRecorder* recorder,
-                              haptic::DriverProcess& device, bool fitted, Record& record) {
+                              haptic::DriverProcess& device, bool fitted, Record& record,
+                              client::DeviceDetails& details) {
   auto loop = opened(a, link, [&] { return make_loop(a, link.client, device); });
   if (!loop) return given_up(a, loop.error());
   log::info(std::string("device: ") + device.info().name);
   client::DeviceReport told = report_of(device.info());
   if (fitted) told.calibration.step = client::CalibrationStep::done;
-  Turns turns(**loop, recorder);
+  haptic::LoopTurns turns(**loop, recorder);
   haptic::HandMotion motion(a.scale);
   haptic::DeviceThread thread(device, a.client.fifo_priority, [&](TimePoint now, Duration dt) {
-    turns.turn(now, dt);
+    turns.turn(now, dt, device.state().temperature);
     motion.note(now, (*loop)->hand().joints, (*loop)->hand().X_WH);
   });
+  SystemClock clock;
+  haptic::DeviceDesk desk(link.client, device, **loop, turns, thread, details, clock.now());
   bool failed = false, again = false;
   wait_for_end(a, link, recorder, [&] {
-    tell_state(link.client, told, (*loop)->device_state());
+    tell_state(link.client, told, desk.state());
+    desk.look(clock.now());
     const auto news = device.check();
     if (!news) log::error(news.error());
     failed = !news;
     if (news && *news) log::warning(**news);
     const bool there = told.kind == client::HandKind::glove && (*loop)->device_state() != client::DeviceState::lost;
-    again = there && calibrates_again(a, motion);
+    again = there && (desk.fits() || calibrates_again(a, motion));
     return !failed && !again;
   });
-  if (!failed) turns.end();
+  if (!failed) (void)(turns.tests() ? turns.end_test() : turns.pause());
   thread.stop();
   add(record, **loop);
   record.device = device.info().name;
@@ -482,8 +466,8 @@ std::optional<int> run_device(const Arguments& a, Link& link, haptic::HandRecord
 
 /// Fits the glove to a hand, where `calibrate`, and runs the device. Returns what run_device() does.
 std::optional<int> run_once(const Arguments& a, Link& link, haptic::HandRecorder* recorder, bool calibrate,
-                            Record& record) {
-  haptic::DriverProcessConfig config = driver_config(a);
+                            Record& record, client::DeviceDetails& details) {
+  haptic::DriverProcessConfig config = driver_config(a, details.place);
   tell_state(link.client, unopened(a), client::DeviceState::preparing);
   if (calibrate) {
     auto calibration = opened(a, link, [&] { return calibrated(a, link.client); });
@@ -493,15 +477,16 @@ std::optional<int> run_once(const Arguments& a, Link& link, haptic::HandRecorder
   }
   const bool fitted = config.glove.has_value();
   haptic::DriverProcess device(std::move(config));
-  return run_device(a, link, recorder, device, fitted, record);
+  return run_device(a, link, recorder, device, fitted, record, details);
 }
 
 int run_driver(const Arguments& a, Link& link, haptic::HandRecorder* recorder) {
   log::info("opening the device, which may take some seconds");
   Record record;
-  std::optional<int> status = run_once(a, link, recorder, a.calibrate, record);
+  client::DeviceDetails details{.place = {center_of(a), a.turn_deg * kPi / 180, a.scale}};
+  std::optional<int> status = run_once(a, link, recorder, a.calibrate, record, details);
   while (!status)
-    status = run_once(a, link, recorder, true, record);
+    status = run_once(a, link, recorder, true, record, details);
   if (record.device.empty()) return *status;
   nlohmann::json json = to_json(record);
   json.update({{"device", record.device},

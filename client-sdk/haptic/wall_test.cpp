@@ -32,7 +32,7 @@ Expected<WallTest> WallTest::make(Device& device, double stiffest_n_per_m) {
   return WallTest(device, stiffness, *governor);
 }
 
-void WallTest::tick(Duration dt) noexcept {
+void WallTest::tick(Duration dt, bool engaged) noexcept {
   const client::HandSample hand = device_.read(dt);
   const DeviceCondition before = std::exchange(report_.condition, device_.condition());
   report_.was_lost |= report_.condition == DeviceCondition::lost && before != DeviceCondition::lost;
@@ -54,13 +54,17 @@ void WallTest::tick(Duration dt) noexcept {
   for (std::size_t i = 0; i < hand::kFingers; ++i)
     wanted.finger_force_n[i] = hold(hand, i);
   wanted.V_WH = hand.V_WH;
-  wanted.engaged = ready;
+  wanted.engaged = ready && engaged;
   wanted.touching = report_.depth_m > 0;
   rendered_ = governor_.apply(governed_, wanted, dt);
   device_.write(rendered_);
   report_.force_n = rendered_.force_W.f.norm();
   report_.force_max_n = std::max(report_.force_max_n, report_.force_n);
   report_.finger_force_max_n = std::max(report_.finger_force_max_n, std::ranges::max(rendered_.finger_force_n));
+}
+
+bool WallTest::rests() const noexcept {
+  return rendered_.force_W.f.isZero(0) && std::ranges::max(rendered_.finger_force_n) <= 0;
 }
 
 }  // namespace mechane::haptic

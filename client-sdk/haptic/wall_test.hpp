@@ -28,8 +28,11 @@ class WallTest {
   /// The device must be open. `stiffest_n_per_m` of the device, 0: not known.
   [[nodiscard]] static Expected<WallTest> make(Device& device, double stiffest_n_per_m);
 
-  void tick(Duration dt) noexcept;
+  /// Not `engaged`: what it renders is ramped down to zero.
+  void tick(Duration dt, bool engaged = true) noexcept;
   [[nodiscard]] const WallReport& report() const noexcept { return report_; }
+  /// Whether the last tick rendered exactly zero.
+  [[nodiscard]] bool rests() const noexcept;
 
  private:
   WallTest(Device& device, double stiffness, const hand::ForceGovernor& governor)

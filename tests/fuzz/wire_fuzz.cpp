@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "client-sdk/client/device_parse.hpp"
 #include "client-sdk/client/exhibit_parse.hpp"
 #include "client-sdk/client/frame_history.hpp"
 #include "client-sdk/client/parse.hpp"
@@ -250,6 +251,24 @@ void fuzz_request(Bytes bytes) {
   must(client::apply(client::settings_of(now), again).has_value());
 }
 
+/// What the program of a device tells, and a request to it.
+void fuzz_device(Bytes bytes) {
+  auto status = bytes.take<proto::DeviceStatus>();
+  status.testing = bytes.take<std::uint8_t>() % 2 == 1;
+  status.protocol = proto::kProtocol;
+  client::DeviceDetails details;
+  if (client::parse(status, details)) {
+    must(details.user < hand::kMaxUsers && client::check(details.place).has_value() && details.p_WH.allFinite());
+    must(details.limits.wanted_hz >= 0 && details.limits.workspace_max_D_m.allFinite() && details.rate_hz >= 0);
+    must(details.refusal.size() <= sizeof(status.refusal));
+  }
+  auto asked = bytes.take<proto::DeviceRequest>();
+  asked.protocol = proto::kProtocol;
+  client::DeviceRequest request;
+  if (!client::parse(asked, request)) return;
+  must(request.id != 0 && request.action <= client::DeviceAction::end_test && client::check(request).has_value());
+}
+
 /// The position of a head from a tracker, which a display uses for its picture.
 void fuzz_head(Bytes bytes) {
   proto::ViewerHead wire{};
@@ -363,7 +382,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   if (data[0] >= 0xe0) {
-    fuzz_status(rest);
+    if (data[0] == 0xe7) {
+      fuzz_device(rest);
+    } else {
+      fuzz_status(rest);
+    }
     return 0;
   }
   if (data[0] >= 0x80) {

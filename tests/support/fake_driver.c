@@ -2,6 +2,7 @@
  * say. Plain C, from mechane/driver.h alone. Each force that it is given is appended to a file, with the time. */
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +27,9 @@ typedef struct {
   long after; /* reads */
   long reads;
   int trace;
-  char pose[256]; /* of a glove: the file with its angles */
+  char pose[256];  /* of a glove: the file with its angles */
+  char sinks[256]; /* the file with which it goes down */
+  long sank;       /* the read at which it began */
   double joints[20];
   double palm_m;
   uint32_t side;
@@ -54,19 +57,21 @@ static void read_pose(Device* d) {
   close(file);
 }
 
-/* "trace=FILE,fault=WORD,after=READS,until=FILE,pose=FILE,side=left,palm=METRES": absent until this file is there; a glove with the 20 angles
- * of that file */
+/* "trace=FILE,fault=WORD,after=READS,until=FILE,sinks=FILE,pose=FILE,side=left,palm=METRES": absent until this file is there; goes down once
+ * that one is, and without one after 0.7 s; a glove with the 20 angles of the third */
 static int fake_open(const char* options, void** device, char* why, size_t why_size) {
   Device* made = calloc(1, sizeof(Device));
   char text[512];
   snprintf(text, sizeof(text), "%s", options);
   made->trace = -1;
+  made->sank = 700; /* first it is free, for the force's ramp */
   char* rest = NULL;
   for (char* word = strtok_r(text, ",", &rest); word != NULL; word = strtok_r(NULL, ",", &rest)) {
     if (strncmp(word, "trace=", 6) == 0) made->trace = open(word + 6, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
     if (strncmp(word, "fault=", 6) == 0) snprintf(made->fault, sizeof(made->fault), "%s", word + 6);
     if (strncmp(word, "after=", 6) == 0) made->after = atol(word + 6);
     if (strncmp(word, "pose=", 5) == 0) snprintf(made->pose, sizeof(made->pose), "%s", word + 5);
+    if (strncmp(word, "sinks=", 6) == 0) snprintf(made->sinks, sizeof(made->sinks), "%s", word + 6), made->sank = LONG_MAX;
     if (strcmp(word, "side=left") == 0) made->side = MECHANE_HAND_LEFT;
     if (strncmp(word, "palm=", 5) == 0) made->palm_m = atof(word + 5);
     if (strncmp(word, "until=", 6) == 0 && access(word + 6, F_OK) != 0) strcpy(made->fault, "absent");
@@ -106,7 +111,8 @@ static int fake_describe(void* device, mechane_device_info* info, char* why, siz
 static int fake_read(void* device, mechane_device_state* state, char* why, size_t why_size) {
   Device* d = device;
   const int fault = ++d->reads > d->after && d->fault[0] != 0;
-  const double depth_m = 1e-4 * (double)(d->reads > 700 ? d->reads - 700 : 0); /* first it is free, for the force's ramp */
+  if (d->sank == LONG_MAX && d->reads % 20 == 0 && access(d->sinks, F_OK) == 0) d->sank = d->reads;
+  const double depth_m = 1e-4 * (double)(d->reads > d->sank ? d->reads - d->sank : 0);
   memset(state, 0, sizeof(*state));
   state->flags = MECHANE_STATE_READY;
   state->position_m[1] = depth_m < 0.02 ? -depth_m : -0.02; /* 0.1 m/s down to 20 mm */

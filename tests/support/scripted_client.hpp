@@ -12,6 +12,8 @@ class ScriptedClient final : public client::Client {
  public:
   std::optional<client::ForceSample> arrived;
   client::HandSample hand;  ///< the last that was sent
+  std::vector<client::DeviceRequest> requests;
+  client::DeviceDetails details;  ///< the last that were told
 
   /// What a server answers at `now` that renders a floor at y = 0.
   void answer_with_floor(double stiffness_n_per_m, TimePoint now) {
@@ -45,6 +47,13 @@ class ScriptedClient final : public client::Client {
   bool send(const client::HandSample& sample) noexcept override {
     hand = sample;
     return ++sent_ > 0;
+  }
+  bool tell_details(const client::DeviceDetails& told) override {
+    details = told;
+    return true;
+  }
+  [[nodiscard]] std::vector<client::DeviceRequest> take_device_requests() override {
+    return std::exchange(requests, {});
   }
   [[nodiscard]] std::uint64_t sent_sequence() const noexcept override { return sent_; }
   [[nodiscard]] std::optional<client::ForceSample> newest_force() noexcept override {

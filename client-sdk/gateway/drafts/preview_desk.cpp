@@ -8,6 +8,7 @@
 
 #include "client-sdk/gateway/browsers/device_json.hpp"
 #include "client-sdk/studio/draft/preview_file.hpp"
+#include "client-sdk/studio/view/workable.hpp"
 #include "server/log/log.hpp"
 #include <mechane/proto/names.hpp>
 
@@ -17,6 +18,8 @@ namespace {
 using PreviewJson = nlohmann::json;
 
 constexpr std::uint32_t kDomainsThere = 230;
+constexpr Duration kDeviceAnswersWithin =
+    std::chrono::seconds(5);  // a device's program, which may have to let its force go first
 constexpr double kMoved_m = 1e-3;
 constexpr double kMoved_rad = 1e-2;
 constexpr std::string_view kEdit = "edit ";  // how a server's answers to edits begin
@@ -32,13 +35,16 @@ PreviewJson reason_json(const studio::StillReason& reason) {
   return out;
 }
 
+PreviewJson vector_json(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
 /// What its author sees of the world that runs.
-void add_world(const KioskHub& hub, const state::WorldDescription& world, const MotionWatch& motion, PreviewJson& out) {
+void add_world(const KioskHub& hub, const state::WorldDescription& world, const studio::SeenWorld& seen,
+               PreviewJson& out) {
   out["step"] = hub.status()->step;
   out["activity"] = hub.status()->activity;
   out["time_s"] = static_cast<double>(hub.frame()->tick) * kTickSeconds;
-  studio::SeenWorld seen{hub.status()->step, hub.status()->enabled_agents, {}, {}, {}};
-  motion.tell(seen);
   PreviewJson still = PreviewJson::array();
   for (const studio::StillBody& body : studio::still_bodies(world, seen)) {
     PreviewJson reasons = PreviewJson::array();
@@ -47,10 +53,15 @@ void add_world(const KioskHub& hub, const state::WorldDescription& world, const 
     still.push_back({{"def", body.def}, {"reasons", std::move(reasons)}});
   }
   out["still"] = std::move(still);
-  PreviewJson devices = PreviewJson::array();
-  for (const client::DeviceReport& device : hub.device_reports())
-    if (device.state != client::DeviceState::none) devices.push_back(device_json(device));
-  out["devices"] = std::move(devices);
+}
+
+/// Where its hands have something to do, for the place of a device.
+PreviewJson workable_json(const state::WorldDescription& world, const studio::SeenWorld& seen) {
+  PreviewJson all = PreviewJson::array();
+  for (const studio::WorkableBody& body : studio::workable_bodies(world, seen))
+    all.push_back(
+        {{"def", body.def}, {"least", vector_json(body.box_W.min())}, {"greatest", vector_json(body.box_W.max())}});
+  return all;
 }
 
 bool shows_world(const KioskHub* hub) {
@@ -312,6 +323,43 @@ void PreviewDesk::visit_ended(std::uint64_t number, std::uint64_t visit) {
     found->second.played->note_end();
 }
 
+Expected<void> PreviewDesk::ask_device(const std::string& draft, const client::DeviceRequest& request, TimePoint now) {
+  auto found = running(draft);
+  if (!found) return tl::unexpected(found.error());
+  Preview& preview = **found;
+  const auto is_it = [&request](const client::DeviceDetails& one) { return one.user == request.user; };
+  if (!shows_world(preview.hub.get()) || std::ranges::none_of(preview.hub->client()->device_details(), is_it))
+    return fail(ErrorCode::conflict, fmt::format("this draft has no device {}", request.user + 1), "user",
+                "start its program, and wait until it is listed");
+  const auto asked = preview.hub->client()->ask_device(request);
+  if (!asked) return tl::unexpected(asked.error());
+  if (*asked == 0) return fail(ErrorCode::io_failure, "the request could not be sent", {}, "try again in a moment");
+  preview.asked[request.user] = {*asked, now};
+  return {};
+}
+
+PreviewJson PreviewDesk::devices_of(const Preview& preview, TimePoint now) {
+  PreviewJson all = PreviewJson::array();
+  const std::vector<client::DeviceDetails> details = preview.hub->client()->device_details();
+  for (const client::DeviceReport& device : preview.hub->device_reports()) {
+    if (device.state == client::DeviceState::none) continue;
+    PreviewJson one = device_json(device);
+    const auto told = std::ranges::find(details, device.user, &client::DeviceDetails::user);
+    if (told != details.end()) one["details"] = details_json(*told);
+    const auto asked = preview.asked.find(device.user);
+    if (asked == preview.asked.end()) {
+      one["request"] = "none";
+    } else if (told != details.end() && told->answered == asked->second.id) {
+      one["request"] = told->refusal.empty() ? "done" : "refused";
+      if (!told->refusal.empty()) one["refusal"] = told->refusal;
+    } else {
+      one["request"] = now - asked->second.at > kDeviceAnswersWithin ? "silent" : "waiting";
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 void PreviewDesk::stop(const std::string& draft) {
   const auto found = previews_.find(draft);
   if (found == previews_.end()) return;
@@ -342,7 +390,14 @@ std::string PreviewDesk::look(const std::string& draft, TimePoint now) {
     out["domain"] = preview.domain;
     out["address"] = fmt::format("/kiosk/{}?token={}", preview.kiosk, preview.token);
     out["socket"] = fmt::format("/ws/kiosk/{}?token={}", preview.kiosk, preview.token);
-    if (shows_world(preview.hub.get())) add_world(*preview.hub, *preview.draft.world, preview.motion, out);
+    if (shows_world(preview.hub.get())) {
+      const state::WorldDescription& world = *preview.draft.world;
+      studio::SeenWorld seen{preview.hub->status()->step, preview.hub->status()->enabled_agents, {}, {}, {}};
+      preview.motion.tell(seen);
+      add_world(*preview.hub, world, seen, out);
+      out["devices"] = devices_of(preview, now);
+      if (!out["devices"].empty()) out["workable"] = workable_json(world, seen);
+    }
   }
   return out.dump(-1, ' ', false, PreviewJson::error_handler_t::replace);
 }

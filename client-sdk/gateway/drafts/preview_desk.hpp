@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "client-sdk/gateway/browsers/backstage.hpp"
 #include "client-sdk/gateway/browsers/kiosk_hub.hpp"
 #include "client-sdk/gateway/drafts/played_visit.hpp"
@@ -77,6 +79,10 @@ class PreviewDesk {
   [[nodiscard]] Expected<void> edit(const std::string& draft, studio::PreviewDraft laid);
   /// The step that the draft began at, where it runs and can be edited. Errors: those of edit().
   [[nodiscard]] Expected<std::string> editable(const std::string& draft);
+  /// Asks the program of a device at this draft's kiosk, which answers in what look() tells. Errors: conflict (nothing runs, or no such
+  /// device), io_failure.
+  [[nodiscard]] Expected<void> ask_device(const std::string& draft, const client::DeviceRequest& request,
+                                          TimePoint now);
   void stop(const std::string& draft);
   /// As JSON, for who looks at it. It ends when nobody has for a while.
   [[nodiscard]] std::string look(const std::string& draft, TimePoint now);
@@ -87,6 +93,11 @@ class PreviewDesk {
   void tick(TimePoint now);
 
  private:
+  /// The last request to a device.
+  struct AskedDevice {
+    std::uint64_t id = 0;
+    TimePoint at;
+  };
   struct Preview {
     std::uint64_t number = 0;
     studio::PreviewDraft draft;
@@ -101,8 +112,9 @@ class PreviewDesk {
     std::int64_t kept_from = -1;                 ///< the newest revision that it did not go on with
     std::string kept_by;                         ///< and why: "body LOAD"
     MotionWatch motion;
-    std::uint64_t visits = 0;           ///< that were played
-    std::optional<PlayedVisit> played;  ///< the last one
+    std::uint64_t visits = 0;                    ///< that were played
+    std::optional<PlayedVisit> played;           ///< the last one
+    std::map<std::uint32_t, AskedDevice> asked;  ///< by the device's user
     TimePoint looked;
   };
   struct Ending {
@@ -122,6 +134,7 @@ class PreviewDesk {
   void end_visit(Preview& preview);
   void visit_ended(std::uint64_t number, std::uint64_t visit);
   void close(const std::string& draft, Preview& preview, const std::string& why);
+  [[nodiscard]] static nlohmann::json devices_of(const Preview& preview, TimePoint now);
 
   const Places places_;
   const Backstage backstage_;

@@ -276,5 +276,28 @@ TEST(PreviewVisit, IsNamedOrRefused) {
     EXPECT_FALSE(parse_visit_order(wrong)) << wrong;
 }
 
+TEST(PreviewDevice, IsAskedForWhatItDoesOrNothing) {
+  const auto test = parse_device_order(R"({"user": 1, "action": "test"})");
+  ASSERT_TRUE(test);
+  EXPECT_EQ(test->user, 1U);
+  EXPECT_EQ(test->action, client::DeviceAction::test);
+  EXPECT_EQ(parse_device_order(R"({"user": 0, "action": "end-test"})")->action, client::DeviceAction::end_test);
+  EXPECT_EQ(parse_device_order(R"({"user": 0, "action": "calibrate"})")->action, client::DeviceAction::calibrate);
+  const auto put = parse_device_order(
+      R"({"user": 0, "action": "place", "place": {"center_m": [1, 2.5, -3], "turn_rad": 0.5, "scale": 2}})");
+  ASSERT_TRUE(put);
+  EXPECT_EQ(put->place, (client::DevicePlace{Vec3(1, 2.5, -3), 0.5, 2}));
+  for (const char* wrong :
+       {"", "[]", "{}", R"({"user": 0})", R"({"action": "test"})", R"({"user": 4, "action": "test"})",
+        R"({"user": -1, "action": "test"})", R"({"user": 0, "action": "burn"})", R"({"user": 0, "action": 2})",
+        R"({"user": 0, "action": "place"})", R"({"user": 0, "action": "test", "place": {}})",
+        R"({"user": 0, "action": "place", "place": {"center_m": [1, 2], "turn_rad": 0, "scale": 1}})",
+        R"({"user": 0, "action": "place", "place": {"center_m": [1, 2, "3"], "turn_rad": 0, "scale": 1}})",
+        R"({"user": 0, "action": "place", "place": {"center_m": [1, 2, 3], "turn_rad": 0}})",
+        R"({"user": 0, "action": "place", "place": {"center_m": [1, 2, 3], "turn_rad": 0, "scale": 0.5}})",
+        R"({"user": 0, "action": "place", "place": {"center_m": [1e9, 2, 3], "turn_rad": 0, "scale": 1}})"})
+    EXPECT_FALSE(parse_device_order(wrong)) << wrong;
+}
+
 }  // namespace
 }  // namespace mechane::gateway

@@ -26,7 +26,7 @@ class DriverProcessTest : public ::testing::Test {
   DriverProcess& open(const std::string& options) {
     device_.emplace(
         DriverProcessConfig{.device = parse_device_name(test::fake_device("trace=" + file_.string() + "," + options)),
-                            .workspace = {.p_WD = Vec3(1, 2, 3), .scale = 2, .clutch_button = 2},
+                            .workspace = {.place = {.p_WD = Vec3(1, 2, 3), .scale = 2}, .clutch_button = 2},
                             .hand_scale = 1.1});
     const auto opened = device_->open();
     EXPECT_TRUE(opened) << (opened ? "" : opened.error().to_string());
@@ -75,6 +75,22 @@ TEST_F(DriverProcessTest, WithTheClutchDownTheHandStaysAndNothingIsRendered) {
   const Vec3 held = tick(0).X_WH.p;
   ASSERT_TRUE(tick_until(0, [&] { return device.state().position_m[1] < -0.015; })) << "the device is moved on";
   EXPECT_EQ(tick(0).X_WH.p, held);
+}
+
+TEST_F(DriverProcessTest, IsPutElsewhereAndItsHandDoesNotRushThere) {
+  DriverProcess& device = open("");
+  ASSERT_TRUE(tick_until(0, [&] { return device.condition() == DeviceCondition::ready; }));
+  device.put({.p_WD = Vec3(-1, 0, 0), .turn_rad = kPi / 2, .scale = 1});
+  client::HandSample hand;
+  double fastest_m_s = 0;
+  ASSERT_TRUE(tick_until(0, [&] {
+    hand = tick(0);
+    fastest_m_s = std::max(fastest_m_s, hand.V_WH.v.norm());
+    return hand.X_WH.p.x() < 0;
+  }));
+  EXPECT_NEAR(hand.X_WH.p.x(), -1, 1e-9);
+  EXPECT_LT(std::abs(hand.X_WH.p.y()), 0.05) << "where the device itself is";
+  EXPECT_LT(fastest_m_s, 1) << "it was put there, and has not moved";
 }
 
 TEST_F(DriverProcessTest, TellsWhichHandItIsAndItsSize) {

@@ -23,6 +23,28 @@ TEST(WallTest, IsAGentleFloorThatStaysAtRest) {
   EXPECT_LT(wall->report().energy_out_j, 0.001);
 }
 
+TEST(WallTest, LetsGoOfTheHandByARamp) {
+  SimulatedStylus stylus({.hand = ArmConfig{}});
+  auto wall = WallTest::make(stylus, 0);
+  ASSERT_TRUE(wall);
+  stylus.intend(Vec3(0, 0, 0));
+  for (int i = 0; i < 4000; ++i) {
+    if (i == 1000) stylus.intend(Vec3(0, -0.014, 0));
+    wall->tick(kTickPeriod);
+  }
+  ASSERT_FALSE(wall->rests());
+  double before_n = wall->report().force_n, steepest_n = 0;
+  int ticks = 0;
+  for (; !wall->rests() && ticks < 1000; ++ticks) {
+    wall->tick(kTickPeriod, false);
+    steepest_n = std::max(steepest_n, before_n - wall->report().force_n);
+    before_n = wall->report().force_n;
+  }
+  EXPECT_GT(ticks, 10);
+  EXPECT_LT(ticks, 1000);
+  EXPECT_LT(steepest_n, 0.1);
+}
+
 /// A glove whose fingers close, and that is let go.
 class ClosingGlove final : public Device {
  public:

@@ -4,6 +4,7 @@ import { reduce, kNothingKnown, type KioskState } from '../wire/messages';
 import { catalogueOf, queryText, type About, type Catalogue, type Query } from './shelf/catalogue';
 import type { DraftRequests, Order } from './draft';
 import { filesOf, nodesOf, type DraftFile, type MeshNode } from './shelf/files';
+import type { DeviceOrder } from './preview/devices';
 import { previewOf, type Pacing, type Preview } from './preview/preview';
 import { schemaOf, type Schema } from './inspector/schema';
 import { libraryOf, versionsOf, viewOf, type Library, type Version, type View } from './view';
@@ -29,6 +30,8 @@ export const studio = (api: Api) => ({
     previewOf(await api.json('POST', at(name, '/preview/edit'), { revision })),
   playVisit: async (name: string, visit: string): Promise<Preview> =>
     previewOf(await api.json('POST', at(name, '/preview/visit'), { visit })),
+  askDevice: async (name: string, order: DeviceOrder): Promise<Preview> =>
+    previewOf(await api.json('POST', at(name, '/preview/device'), order)),
   stopPreview: async (name: string): Promise<Preview> => previewOf(await api.json('POST', at(name, '/preview/stop'), {})),
   files: async (name: string): Promise<DraftFile[]> => filesOf(await api.json('GET', at(name, '/files'))),
   addFile: async (name: string, file: string, bytes: Blob, replace: boolean): Promise<DraftFile[]> =>

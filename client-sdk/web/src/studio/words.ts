@@ -356,11 +356,6 @@ const kEnglish = {
     noStep: 'no step',
     still: 'What does not move, and why',
     nothingStill: 'Everything that is made to move can move now.',
-    devices: 'Haptic devices',
-    device: (n: number) => `device ${n}`,
-    deviceStates: { preparing: 'is being prepared', ready: 'ready', 'let-go': 'nobody holds it', 'not-ready': 'not held, or switched off',
-      uncalibrated: 'to be calibrated', warm: 'warm, its force is lowered', hot: 'too hot', lost: 'gone or faulty' } as Record<string, string>,
-    deviceComes: 'To feel what runs here, start this on the machine of a device:',
     toField: 'Go to the field',
   },
   edits: {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "server/base/error.hpp"
+#include <mechane/client/devices.hpp>
 #include <mechane/client/displays.hpp>
 #include <mechane/client/head.hpp>
 #include <mechane/client/types.hpp>
@@ -107,11 +108,19 @@ class Client {
   /// For a haptic program (role `hand`): tells the kiosk's displays of its device, at once when it is another report than
   /// the last. Takes a lock: not for the loop's thread.
   virtual void tell_device(const DeviceReport& /*report*/) {}
+  /// For a haptic program: tells staff of its open device; once a second. False where it could not be sent.
+  virtual bool tell_details(const DeviceDetails& /*details*/) { return false; }
+  /// For a haptic program: requests to this hand since the last call, oldest first. Each is answered in tell_details().
+  [[nodiscard]] virtual std::vector<DeviceRequest> take_device_requests() { return {}; }
 
   // The following functions are for displays only; haptic programs have devices(), too.
 
   /// The devices of this kiosk's hands, by user. A program that ended or lost the network disappears within 3 s.
   [[nodiscard]] virtual std::vector<DeviceReport> devices() { return {}; }
+  /// What the programs of these devices tell staff, by user.
+  [[nodiscard]] virtual std::vector<DeviceDetails> device_details() { return {}; }
+  /// As DisplayWatch::request(), to a hand of this kiosk.
+  [[nodiscard]] virtual Expected<std::uint64_t> ask_device(const DeviceRequest& /*request*/) { return 0; }
 
   /// SceneFrames that were received and that were lost, in this and former worlds.
   [[nodiscard]] virtual FrameTraffic frame_traffic() const { return {}; }

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "server/base/error.hpp"
+#include <mechane/client/devices.hpp>
 #include <mechane/client/types.hpp>
 
 namespace mechane::client {
@@ -143,6 +145,7 @@ struct FrameTraffic {
 struct KioskDevice {
   std::string kiosk;
   DeviceReport report;
+  std::optional<DeviceDetails> details;  ///< once its program has opened it
 };
 
 /// All displays and haptic devices of a museum, for a technician's tool. Any thread, one at a time.
@@ -166,6 +169,9 @@ class DisplayWatch {
   /// of its range.
   [[nodiscard]] virtual Expected<std::uint64_t> request(const std::string& kiosk, const std::string& display,
                                                         const DisplayRequest& request) = 0;
+  /// Sends a request to the program of a hand. Returns the id with which it answers in its DeviceDetails; 0 where the
+  /// request could not be sent. Errors: a bad name, a hand that no kiosk has, a place that check() refuses.
+  [[nodiscard]] virtual Expected<std::uint64_t> request(const std::string& kiosk, const DeviceRequest& request) = 0;
 };
 
 }  // namespace mechane::client

@@ -1,7 +1,8 @@
 // A draft that runs in a world of its own: what the gateway tells of it, read from its JSON, whatever is missing.
-import { deviceOf, fields, list, number, text, type DeviceInfo } from '../../console/api';
+import { fields, list, number, text } from '../../console/api';
 import type { Texts } from '../../wire/messages';
 import { textsOf } from '../view';
+import { trialDeviceOf, workableOf, type TrialDevice, type Workable } from './devices';
 
 export type PreviewState = 'none' | 'starting' | 'running' | 'failed';
 export interface StillReason {
@@ -52,7 +53,9 @@ export interface Preview {
   step: string;
   still: Still[];
   /** Of its kiosk: haptic ones, and what starts another one there. */
-  devices: DeviceInfo[];
+  devices: TrialDevice[];
+  /** Where a hand has something to do; told while there is a device. */
+  workable: Workable[];
   kiosk: string;
   domain: number;
   visit: Played;
@@ -100,7 +103,8 @@ export function previewOf(v: unknown): Preview {
     activity: text(p.activity),
     step: text(p.step),
     still: list(p.still).map(stillOf),
-    devices: list(p.devices).map(deviceOf),
+    devices: list(p.devices).map(trialDeviceOf),
+    workable: list(p.workable).map(workableOf),
     kiosk: text(p.kiosk),
     domain: number(p.domain),
     visit: playedOf(p.visit),

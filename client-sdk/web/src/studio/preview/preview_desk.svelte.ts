@@ -7,6 +7,7 @@ import { decodeFrame } from '../../wire/frame';
 import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type Quantity, type WorldEvent } from '../../wire/messages';
 import type { Draft } from '../draft';
 import { wantedIn } from '../flow/flow';
+import type { DeviceOrder } from './devices';
 import type { Preview } from './preview';
 import { Series } from './preview_series';
 import { sentence, type StudioRequests } from '../requests';
@@ -107,6 +108,10 @@ export class PreviewDesk {
   }
   step(ticks: number): Promise<void> {
     return this.order(() => this.requests.pacePreview(this.name, { ticks }));
+  }
+  /** Its program answers in what is told of the device. */
+  askDevice(order: DeviceOrder): Promise<void> {
+    return this.order(() => this.requests.askDevice(this.name, order));
   }
   /** A scripted visitor comes, and plays a visit of what runs; "": it goes. */
   play(visit: string): Promise<void> {
