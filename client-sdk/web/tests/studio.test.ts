@@ -4,7 +4,7 @@ import type { PoseArray } from '../src/wire/messages';
 import { degreesOf, numbersFrom, quaternionFrom, switchCommands, wordsCommand, written, type Command } from '../src/studio/commands';
 import { Draft, type DraftRequests, type DraftState, type Order } from '../src/studio/draft';
 import { exhibitName, filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/shelf/files';
-import { agentsOf, ruleText, stepsOf } from '../src/studio/flow/flow';
+import { agentsOf, firstFieldOf, ruleText, stepsOf } from '../src/studio/flow/flow';
 import { jointsOfMoved } from '../src/studio/picture/left_behind';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/picture/joint';
 import { isInPicture, unseenFrom } from '../src/studio/picture/seen';
@@ -192,6 +192,8 @@ it('agents stay as they were until a step says otherwise', () => {
   expect(switchCommands(view(), turn, 'HOLD', 'on').map((c) => c.op)).toEqual(['set', 'remove']);
   const rules = stepsOf(view(), 'use').map((step) => ruleText(step.triggers[0]!, studioWords('en')));
   expect(rules).toEqual(['held > 0.5 for 0.2 s → turn', 'held < 1 or a = 2 → end']);
+  const fields = stepsOf(view(), 'use').map((step) => firstFieldOf(step.triggers[0]!));
+  expect(fields).toEqual(['trigger:1/quantity', 'trigger:1/rule:1/quantity']);
 });
 
 it('a joint in the making becomes one step, with its axis in the world and stops that go together', () => {

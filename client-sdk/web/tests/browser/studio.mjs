@@ -193,7 +193,10 @@ const parts = {
     await page.waitForSelector('[aria-label="RATCHET in guide: off"]');
     assert.deepEqual(sent(), [{ op: 'set', path: 'activities/use/steps/guide/enable', value: ['GUIDE'] },
       { op: 'set', path: 'activities/use/steps/guide/disable', value: ['HOLD', 'RATCHET'] }]);
-    assert.ok(await page.isVisible('text=height > 0.965 → guide'));
+    // A rule leads to its form, beside the flow.
+    await page.click('button.rule:text-is("height > 0.965 → guide")');
+    await page.waitForSelector('[data-field="activities/use/steps/lift/trigger:1/quantity"] :is(input, select):focus');
+    assert.equal(await page.getAttribute('nav [data-part=flow]', 'aria-current'), 'page');
     await accessible('flow');
   },
   async 'a step is moved by key and by button, its rules lead on in the new order, and the focus stays'() {

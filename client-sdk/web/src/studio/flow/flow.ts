@@ -69,6 +69,12 @@ function rulesOf(trigger: MetaSet): MetaSet[] {
   return rules.length > 0 ? rules : [trigger];
 }
 
+/** The field that a trigger's form begins with, from the step: "trigger:1/quantity". */
+export function firstFieldOf(trigger: MetaSet): string {
+  const [rule] = rulesOf(trigger);
+  return `${trigger.name}/${rule === trigger ? '' : `${rule!.name}/`}quantity`;
+}
+
 /** "height > 0.965 for 0.3 s → guide". */
 export function ruleText(trigger: MetaSet, words: StudioWords): string {
   const one = (set: MetaSet): string => [word(set, 'quantity') || '?', kSigns[word(set, 'op')] ?? '?', word(set, 'value') || '?'].join(' ');

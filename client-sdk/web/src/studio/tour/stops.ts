@@ -66,7 +66,7 @@ export function targetOf(stop: StopName, ws: Workspace | null): string {
     case 'join': return ws.joint ? '[data-tour="join"]' : within(ws, 'scene', '[data-tour="joint"]');
     case 'hand': return chosen(ws, pathId(kHand), field(`${kHand}/bodies`));
     case 'words': return within(ws, 'words', `.row:has(${field(`${crank}/mechane:body/text/title.${ws.page.code}`)})`);
-    case 'rule': return ws.selection === pathId(kRule.split('/').slice(0, -2).join('/')) && ws.part !== 'flow'
+    case 'rule': return ws.selection === pathId(kRule.split('/').slice(0, -2).join('/')) && ws.part !== 'try'
       ? field(kRule) : within(ws, 'flow', 'button.rule');
     case 'start': return within(ws, 'try', '[data-tour="start"]');
     case 'turn': return within(ws, 'try', '[data-tour="page"]');
