@@ -185,6 +185,24 @@ const parts = {
     await page.waitForSelector('.notice', { state: 'detached' });
     assert.equal(await page.inputValue(field('DRUM/mass')), '13');
   },
+  async 'the parts stay where they are whichever is shown, each with the contents beside it'() {
+    const places = () => page.locator('nav [data-part]').evaluateAll((all) => all.map((one) => {
+      const { left, top, width } = one.getBoundingClientRect();
+      return [one.dataset.part, left, top, width].join(' ');
+    }));
+    const before = await places();
+    for (const part of ['Flow', 'Words', 'Files', 'Try it', 'Versions', 'Scene']) {
+      await go(part);
+      assert.deepEqual(await places(), before, part);
+      assert.ok(await page.isVisible('[role=tree]'), part);
+    }
+    // What is chosen there is seen beside the preview.
+    await go('Try it');
+    await choose('LOAD');
+    await page.waitForSelector(field('LOAD/mass'));
+    await page.click('.inspector button:text-is("Watch")');
+    await go('Scene');
+  },
   async 'agents are switched by step, with what is inherited beside it'() {
     await go('Flow');
     await page.click('[aria-label="RATCHET in guide: on, as before"]');

@@ -52,7 +52,7 @@ const row = (id: string): string => `[data-row="${CSS.escape(id)}"]`;
 const within = (ws: Workspace, part: PartName, there: string): string => (ws.part === part ? there : `[data-part="${part}"]`);
 /** A field of what is selected, or, until then, its row in the contents. */
 const chosen = (ws: Workspace, id: string, there: string): string =>
-  (ws.selection === id ? there : ws.part === 'try' ? '[data-part="scene"]' : row(id));
+  (ws.selection === id && (ws.part !== 'try' || ws.beside === 'properties') ? there : row(id));
 
 /** A selector of what the stop points at. */
 export function targetOf(stop: StopName, ws: Workspace | null): string {
