@@ -22,6 +22,7 @@ import type { Workspace } from '../src/studio/workspace.svelte';
 import { missingIn, wordGroups } from '../src/studio/flow/texts';
 import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
 import { childSets, freePlace, metaAt, stringAt, viewOf, libraryOf, versionsOf, type View } from '../src/studio/view';
+import { nameFault } from '../src/studio/naming';
 import { studioWords } from '../src/studio/words';
 
 const value = (name: string, value: unknown) => ({ kind: 'value', name, value, line: 1 });
@@ -180,6 +181,17 @@ it('what lies beside the picture of the first view is told', () => {
   const turned: PoseArray = [0, 1, 2, 0, Math.SQRT1_2, 0, Math.SQRT1_2];  // looks along -x
   expect([isInPicture(turned, 0.8, [-3, 1, 2]), isInPicture(turned, 0.8, [3, 1, 2])]).toEqual([true, false]);
   expect([unseenFrom(draft, null), unseenFrom(viewOf(null), [0, 0, 0])]).toEqual(['', '']);
+});
+
+it('what is wrong with a name is said, and nothing of one that is right', () => {
+  const words = studioWords('en');
+  for (const right of ['my-crane', '2-cranes', ' my-crane ', 'a', '']) expect(nameFault(right, 'page', words)).toBe('');
+  for (const right of ['CRANK_2', 'a-b']) expect(nameFault(right, 'thing', words)).toBe('');
+  for (const [wrong, kind, why] of [['my crane', 'page', /blanks/], ['My-crane', 'page', /“M” is a capital/], ['crane_2', 'page', /“_”/],
+    ['-crane', 'page', /begin with “-”/], ['crαne', 'page', /“α” is a Greek letter/], ['2CRANK', 'thing', /begin with “2”/],
+    ['CRANΚ', 'thing', /“Κ” is a Greek letter/], ['CRANK!', 'thing', /“!”/]] as const)
+    expect(nameFault(wrong, kind, words)).toMatch(why);
+  expect(nameFault('Γερανός', 'page', studioWords('el'))).toContain('«Γ» είναι ελληνικό');
 });
 
 it('agents stay as they were until a step says otherwise', () => {

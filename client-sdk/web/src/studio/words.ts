@@ -30,6 +30,19 @@ const kEnglish = {
   shipped: 'Exhibit',
   newName: 'Its name',
   newNameHelp: 'Small letters, digits and hyphens, such as my-crane. The address of its pages has this name.',
+  naming: {
+    blank: 'A name has no blanks: take a hyphen instead.',
+    greek: (letter: string) => `“${letter}” is a Greek letter, even where it looks like a Latin one: write it in Latin.`,
+    capital: (letter: string) => `“${letter}” is a capital letter: only small ones here.`,
+    letter: {
+      page: (letter: string) => `“${letter}” cannot be in it: only small letters a-z, digits and hyphens.`,
+      thing: (letter: string) => `“${letter}” cannot be in it: only letters a-z, digits, - and _.`,
+    },
+    first: {
+      page: (letter: string) => `It cannot begin with “${letter}”: a letter or a digit comes first.`,
+      thing: (letter: string) => `It cannot begin with “${letter}”: a letter comes first.`,
+    },
+  },
   make: 'Make it',
   noExhibits: 'No exhibit is here yet. Make one from a template.',
   back: 'All exhibits',

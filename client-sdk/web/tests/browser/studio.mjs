@@ -54,17 +54,29 @@ const parts = {
     await accessible('exhibits');
     // One that was exported elsewhere.
     await page.selectOption('form select', 'file');
-    const give = (text) => page.setInputFiles('input[type=file]', { name: 'My Crane.zip', mimeType: '', buffer: Buffer.from(text) });
+    const give = (text) => page.setInputFiles('input[type=file]', { name: 'My Crane 2.zip', mimeType: '', buffer: Buffer.from(text) });
     await give('a text');
-    assert.equal(await page.inputValue('form input:not([type=file])'), 'my-crane');
+    assert.equal(await page.inputValue('form input:not([type=file])'), 'my-crane-2');
     await page.click('form button.main');
     await page.waitForSelector('[role=alert]:has-text("this is no zip archive")');
     await accessible('import');
     await give('PK');
     await page.click('form button.main');
     await page.waitForSelector('.saved');
-    assert.equal(gateway.asked.at(-1).path, '/api/studio/drafts/my-crane/import');
+    assert.equal(gateway.asked.at(-1).path, '/api/studio/drafts/my-crane-2/import');
     await page.click('header button:has-text("All exhibits")');
+    // What is wrong with a name is said, and nothing of one that is right.
+    await page.selectOption('form select', 'template:empty');
+    const name = page.getByLabel('Its name');
+    for (const [given, why] of [['My crane', '“M” is a capital letter'], ['my-crane', 'This name is taken'],
+      ['crαne', 'is a Greek letter']]) {
+      await name.fill(given);
+      await page.waitForSelector(`form [role=alert]:has-text("${why}")`);
+    }
+    await accessible('name');
+    await name.fill(' my-winch ');
+    await page.waitForSelector('form [role=alert]', { state: 'detached' });
+    assert.ok(await name.evaluate((input) => input.checkValidity() && input.title === ''));
     await accessible('exhibits', 'dark');
     await page.click('button:text-is("Show me how")');
     await page.waitForSelector('.beside h2:text-is("Begin your exhibit")');

@@ -359,7 +359,7 @@ export class StudioStandIn extends StandIn {
       return [200, user];
     }
     if (!this.signedIn) return [401, { error: 'nobody is signed in', remedy: 'sign in' }];
-    const rest = path.replace('/api/studio/drafts/my-crane', '');
+    const rest = path.replace(/^\/api\/studio\/drafts\/[^/]+/, '');
     if (method === 'POST') this.asked.push({ path, body });
     if (path === '/api/me') return [200, user];
     if (path === '/api/kiosks') return [200, { kiosks: [{ kiosk: 'hall', scenario: 'village', address: '/kiosk/hall?token=t',

@@ -11,7 +11,6 @@ export interface VisitWords {
   midway: string;
   leftOut: string;
   name: string;
-  nameHelp: string;
   mistakes: string;
   save: string;
   replace: string;
@@ -43,7 +42,6 @@ const kEnglish: VisitWords = {
   midway: 'This trial began at a later step, and a visit begins at the start: start it anew from there.',
   leftOut: 'A visit has one hand. What a second hand did at the same time is not in it.',
   name: 'Its name',
-  nameHelp: 'Letters a-z, digits and -',
   mistakes: 'and one that lets go half way and turns the wrong way',
   save: 'Keep it as a visit',
   replace: 'Replace the visit',
@@ -83,7 +81,6 @@ const kGreek: VisitWords = {
   midway: 'Αυτή η δοκιμή άρχισε από μεταγενέστερο βήμα, ενώ μια επίσκεψη αρχίζει από την αρχή: ξεκινήστε την πάλι από εκεί.',
   leftOut: 'Μια επίσκεψη έχει ένα χέρι. Ό,τι έκανε ταυτόχρονα ένα δεύτερο χέρι δεν περιλαμβάνεται.',
   name: 'Το όνομά της',
-  nameHelp: 'Γράμματα a-z, ψηφία και -',
   mistakes: 'και μία που αφήνει στη μέση και γυρίζει ανάποδα',
   save: 'Κράτησέ το ως επίσκεψη',
   replace: 'Αντικατάσταση της επίσκεψης',
