@@ -23,6 +23,7 @@ import { missingIn, wordGroups } from '../src/studio/flow/texts';
 import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
 import { childSets, freePlace, metaAt, stringAt, viewOf, libraryOf, versionsOf, type View } from '../src/studio/view';
 import { nameFault } from '../src/studio/naming';
+import { freeTitles, nameOfTitle } from '../src/studio/shelf/new_exhibit';
 import { studioWords } from '../src/studio/words';
 
 const value = (name: string, value: unknown) => ({ kind: 'value', name, value, line: 1 });
@@ -183,6 +184,14 @@ it('what lies beside the picture of the first view is told', () => {
   expect([unseenFrom(draft, null), unseenFrom(viewOf(null), [0, 0, 0])]).toEqual(['', '']);
 });
 
+it('a new exhibit has titles and a name that no other has', () => {
+  const exhibit = (name: string, title: object) => ({ name, title, draft: null, picture: null });
+  const titles = (...exhibits: object[]) => freeTitles(libraryOf({ exhibits, templates: [] }));
+  expect(titles()).toEqual({ el: 'Το έκθεμά μου', en: 'My exhibit' });
+  expect(titles(exhibit('a', { el: 'Το έκθεμά μου' }), exhibit('my-exhibit-2', {})).en).toBe('My exhibit 3');
+  expect(['My winch', 'No. 2 of St. Mark', 'Βαρούλκο'].map(nameOfTitle)).toEqual(['my-winch', 'no-2-of-st-mark', '']);
+});
+
 it('what is wrong with a name is said, and nothing of one that is right', () => {
   const words = studioWords('en');
   for (const right of ['my-crane', '2-cranes', ' my-crane ', 'a', '']) expect(nameFault(right, 'page', words)).toBe('');
@@ -277,6 +286,8 @@ it('a stop of the tour is done when the draft says so, and points at what is the
   expect(kStops.slice(0, 5).map((stop) => isDone(stop, first))).toEqual([true, false, false, false, false]);
   const later = ws([body('LOAD', 0, { mass: '15' }), body('CRANK', 0.7)], { joints: [{ def: 'JOINT_1', body2: 'CRANK', fields: {} }] });
   expect(crankOf(later.view)).toBe('CRANK');
+  const low = { def: 'CRANK', pose: [0.7, 0.5, 0, 0, 0, 0, 1], fields: {} };
+  expect(isDone('place', ws([body('LOAD', 0), low]))).toBe(false);  // as high as the other
   expect(kStops.slice(2, 8).map((stop) => isDone(stop, later))).toEqual([true, true, true, true, false, false]);
   expect(targetOf('make', null)).toBe('[data-tour="new"]');
   expect(targetOf('words', { ...later, state: { view: later.view } } as unknown as Workspace)).toBe('[data-part="words"]');

@@ -28,6 +28,8 @@ const kEnglish = {
   exhibitTooBig: 'This file has more than 128 MiB.',
   template: 'Template',
   shipped: 'Exhibit',
+  newTitle: (language: string) => `Title for visitors, ${language}`,
+  newTitleUsual: 'My exhibit',
   newName: 'Its name',
   newNameHelp: 'Small letters, digits and hyphens, such as my-crane. The address of its pages has this name.',
   naming: {

@@ -24,6 +24,8 @@ export const kGreek: StudioWords = {
   exhibitTooBig: 'Το αρχείο αυτό είναι πάνω από 128 MiB.',
   template: 'Υπόδειγμα',
   shipped: 'Έκθεμα',
+  newTitle: (language) => `Τίτλος για τους επισκέπτες, ${language}`,
+  newTitleUsual: 'Το έκθεμά μου',
   newName: 'Το όνομά του',
   newNameHelp: 'Μικρά λατινικά γράμματα, ψηφία και παύλες, όπως my-crane. Το έχει η διεύθυνση των σελίδων του.',
   naming: {

@@ -68,6 +68,13 @@ const parts = {
     // What is wrong with a name is said, and nothing of one that is right.
     await page.selectOption('form select', 'template:empty');
     const name = page.getByLabel('Its name');
+    // It has a title of its own, and the name follows it until somebody writes one.
+    const title = (language) => page.getByLabel(`Title for visitors, ${language}`);
+    assert.deepEqual([await title('Greek').inputValue(), await title('English').inputValue(), await name.inputValue()],
+      ['Το έκθεμά μου', 'My exhibit', 'my-exhibit']);
+    await title('Greek').fill('Το βαρούλκο μου');
+    await title('English').fill('My winch');
+    assert.equal(await name.inputValue(), 'my-winch');
     for (const [given, why] of [['My crane', '“M” is a capital letter'], ['my-crane', 'This name is taken'],
       ['crαne', 'is a Greek letter']]) {
       await name.fill(given);
@@ -77,6 +84,14 @@ const parts = {
     await name.fill(' my-winch ');
     await page.waitForSelector('form [role=alert]', { state: 'detached' });
     assert.ok(await name.evaluate((input) => input.checkValidity() && input.title === ''));
+    await page.click('form button.main');
+    await page.waitForSelector('.saved');
+    assert.deepEqual(gateway.asked.slice(-2).map(({ path, body }) => [path, body.from ?? body.commands]), [
+      ['/api/studio/drafts', 'template:empty'], ['/api/studio/drafts/my-winch/commands', [
+        { op: 'set', path: 'text/title.el', value: 'Το βαρούλκο μου' }, { op: 'set', path: 'text/title.en', value: 'My winch' }]]]);
+    gateway.back(gateway.done, []);
+    gateway.revision = 3;
+    await page.click('header button:has-text("All exhibits")');
     await accessible('exhibits', 'dark');
     await page.click('button:text-is("Show me how")');
     await page.waitForSelector('.beside h2:text-is("Begin your exhibit")');

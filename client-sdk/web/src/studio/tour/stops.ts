@@ -15,7 +15,10 @@ const kRule = 'activities/lift/steps/wind/trigger:1/value';
 const kFirst = { mass: 10, height: 0.6 };
 /** The stone has left the ground. */
 const kLifted_m = 0.45;
+/** Beside the other crank, and as high. */
 const kAside_m = 0.4;
+const kHeight_m = 0.9;
+const kNear_m = 0.03;
 
 /** The draft is one that the tour can go on with. */
 export const isOfTour = (view: View): boolean => nodeAt(view, kStone) !== undefined && metaAt(view, kHand) !== undefined;
@@ -35,7 +38,10 @@ export function isDone(stop: StopName, ws: Workspace): boolean {
     case 'stone': return ws.selection === nodeId(kStone);
     case 'weight': return Number(nodeAt(view, kStone)?.fields.mass ?? kFirst.mass) !== kFirst.mass;
     case 'insert': return crank !== '';
-    case 'place': return (outlineAt(view, crank)?.pose?.[0] ?? 0) >= kAside_m;
+    case 'place': {
+      const [x = 0, y = 0] = outlineAt(view, crank)?.pose ?? [];
+      return x >= kAside_m && Math.abs(y - kHeight_m) <= kNear_m;
+    }
     case 'join': return crank !== '' && view.joints.some((j) => j.body1 === crank || j.body2 === crank);
     case 'hand': return crank !== '' && stringsAt(view, `${kHand}/bodies`).includes(crank);
     case 'words': return languagesOf(view).every((code) => stringAt(view, `${crank}/mechane:body/text/title.${code}`) !== '');
