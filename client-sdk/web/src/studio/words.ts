@@ -325,6 +325,10 @@ const kEnglish = {
     tryFrom: (step: string) => `Try it from ${step}`,
     begunAt: (step: string) => `It began at ${step}. Agents and bodies are as the steps before it say. What a visitor would have ` +
       'done until then is not done: bodies that no step puts somewhere, and water, are as at the start.',
+    lost: (body: string) => `The hand has lost ${body}: it moved away from the hand further than the hand can stretch.`,
+    lostHelp: 'Take hold again, and turn more slowly, round the axle. If it happens often, make it easier to turn (friction, load), or ' +
+      'let the hand stretch further:',
+    lostField: (agent: string) => `“Lost at a distance of” of ${agent}`,
     changed: 'The draft has changed since this began.',
     changing: 'What has changed is on its way into what runs.',
     kept: (why: string) => `${why}. It is seen after a new start.`,

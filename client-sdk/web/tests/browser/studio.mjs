@@ -548,6 +548,11 @@ const parts = {
     const { tick } = gateway.trial.moment();
     for (const [kind, at] of [['activity_started', tick], ['grasped', tick + 1], ['released', tick + 2000]])
       gateway.say({ type: 'event', kind, tick: at, subject: 'studio-my-crane/0', object: 'DRUM', value: 0 });
+    // Nobody has opened the hand.
+    await page.waitForSelector('.notice:has-text("The hand has lost DRUM")');
+    await accessible('lost');
+    await page.click('.notice button:text-is("Hide")');
+    await page.waitForSelector('.notice', { state: 'detached' });
     await page.click('.visits button:text-is("Keep it as a visit")');
     await page.waitForSelector('.visits p:text-is("The draft has the visit shown now.")');
     assert.deepEqual(gateway.asked.findLast((one) => one.path.endsWith('/commands')).body.commands.slice(0, 3), [
