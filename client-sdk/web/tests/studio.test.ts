@@ -22,6 +22,7 @@ import type { Workspace } from '../src/studio/workspace.svelte';
 import { missingIn, wordGroups } from '../src/studio/flow/texts';
 import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
 import { childSets, freePlace, metaAt, stringAt, viewOf, libraryOf, versionsOf, type View } from '../src/studio/view';
+import { firstCommands, jointsFor } from '../src/studio/inspector/first_values';
 import { nameFault } from '../src/studio/naming';
 import { freeTitles, nameOfTitle } from '../src/studio/shelf/new_exhibit';
 import { studioWords } from '../src/studio/words';
@@ -182,6 +183,26 @@ it('what lies beside the picture of the first view is told', () => {
   const turned: PoseArray = [0, 1, 2, 0, Math.SQRT1_2, 0, Math.SQRT1_2];  // looks along -x
   expect([isInPicture(turned, 0.8, [-3, 1, 2]), isInPicture(turned, 0.8, [3, 1, 2])]).toEqual([true, false]);
   expect([unseenFrom(draft, null), unseenFrom(viewOf(null), [0, 0, 0])]).toEqual(['', '']);
+});
+
+it('gears begin with the teeth of their wheels, or with usual ones', () => {
+  const wheel = (def: string, teeth: number) => ({ def, type: 'RigidBody',
+    children: [{ def: `${def}_TEETH_${teeth}`, type: 'CollidableShape' }] });
+  const draft = view({ outline: [wheel('SMALL', 12), wheel('LARGE', 36)], bodies: [{ def: 'SMALL' }, { def: 'LARGE' }, { def: 'PLAIN' }],
+    joints: [{ def: 'A', type: 'SingleAxisHingeJoint', body1: 'FRAME', body2: 'LARGE' },
+      { def: 'B', type: 'SingleAxisHingeJoint', body2: 'SMALL' }, { def: 'C', type: 'SingleAxisHingeJoint', body2: 'PLAIN' },
+      { def: 'RACK', type: 'SliderJoint', body2: 'PLAIN' }, { def: 'BALL', type: 'BallJoint' }] });
+  expect(jointsFor(draft)).toEqual(['A', 'B', 'C', 'RACK']);
+  const made = (type: string, joints: Record<string, string>) =>
+    firstCommands(draft, 'agents/G', type, joints).map((c) => (c.op === 'set' ? [c.path.slice('agents/G/'.length), c.value] : []));
+  expect(made('geometry.gear', { joint1: 'A', joint2: 'B' })).toEqual([['joint1', 'A'], ['joint2', 'B'], ['teeth', [36, 12]]]);
+  expect(made('geometry.gear', { joint1: 'B', joint2: 'C' })[2]).toEqual(['teeth', [12, 24]]);
+  expect(made('geometry.gear', { joint1: '', joint2: '' })).toEqual([['teeth', [12, 24]]]);
+  expect(made('geometry.gear', { joint1: 'B', joint2: 'RACK' })[2]).toEqual(['radius', 0.1]);
+  expect(made('geometry.gear', { joint1: 'RACK', joint2: 'B' })[2]).toEqual(['ratio', 1]);
+  expect(made('geometry.worm', { joint1: 'C', joint2: 'A' })[2]).toEqual(['teeth', 36]);
+  expect(made('geometry.ratchet', { joint: 'RACK' })[1]).toEqual(['pitch', 0.02]);
+  expect(made('geometry.rope', {})).toEqual([]);
 });
 
 it('a new exhibit has titles and a name that no other has', () => {

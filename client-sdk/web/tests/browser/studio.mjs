@@ -442,6 +442,20 @@ const parts = {
     await page.click('.bar button:text-is("Undo")');
     await until(page, 'it is gone', (s) => s.joint === null && s.selection === 'path:');
   },
+  async 'a pair of gears has its joints and teeth as it is made'() {
+    await page.click('[aria-label="Add to the exhibit"]');
+    await page.selectOption('dialog select >> nth=0', 'agents');
+    await page.selectOption('dialog select >> nth=1', 'geometry.gear');
+    assert.deepEqual(await page.$$eval('dialog select', (all) => all.slice(2).map((s) => s.value)), ['AXLE', '']);
+    await page.fill('dialog input', 'GEARS');
+    await accessible('gears');
+    await page.click('dialog button.main');
+    await page.waitForSelector('[data-field="agents/GEARS/teeth"]');
+    assert.deepEqual(sent(), [{ op: 'set', path: 'agents/GEARS/type', value: 'geometry.gear' },
+      { op: 'set', path: 'agents/GEARS/joint1', value: 'AXLE' }, { op: 'set', path: 'agents/GEARS/teeth', value: [12, 24] }]);
+    await page.click('.bar button:text-is("Undo")');
+    await page.waitForSelector('[data-row="path:agents/GEARS"]', { state: 'detached' });
+  },
   async 'a view is kept, and looked from'() {
     await page.focus('[role=application]');
     await page.keyboard.press('ArrowLeft');
