@@ -469,6 +469,15 @@ const parts = {
     const ahead = (c) => [3, 4, 5].map((i) => (c[i] - c[i - 3]) / Math.hypot(c[3] - c[0], c[4] - c[1], c[5] - c[2]));
     ahead(again).forEach((x, i) => assert.ok(Math.abs(x - ahead(camera)[i]) < 1e-3, 'in the same direction'));
     await accessible('view');
+    // Another view takes its place, and does not stand beside it.
+    await page.focus('[role=application]');
+    await page.keyboard.press('ArrowUp');
+    await until(page, 'another view', (s) => Math.abs(s.camera[1] - again[1]) > 0.01);
+    assert.ok(await page.isVisible('.views button:text-is("Keep it as one more")'));
+    await page.click('.views button:text-is("Replace VIEW_2 by this view")');
+    await saved();
+    assert.deepEqual(sent().map(({ op, node }) => [op, node]), [['move', 'VIEW_2'], ['field', 'VIEW_2']]);
+    assert.ok(gateway.draft.views.length === 2 && Math.abs(gateway.draft.views[1].pose[1] - again[1]) > 0.01);
   },
   async 'a mesh is brought in, another of its name only when asked, and becomes a body'() {
     await go('Files');
