@@ -224,6 +224,16 @@ it('what is wrong with a name is said, and nothing of one that is right', () => 
   expect(nameFault('Γερανός', 'page', studioWords('el'))).toContain('«Γ» είναι ελληνικό');
 });
 
+it('numbers in Greek sentences have a comma, and those of other languages a point', () => {
+  const [greek, english] = [studioWords('el'), studioWords('en')];
+  expect([greek, english].map((w) => w.decimal('0.5 -1.25 m, 3. 1e-3'))).toEqual(['0,5 -1,25 m, 3. 1e-3', '0.5 -1.25 m, 3. 1e-3']);
+  expect(stepsOf(view(), 'use').map((step) => ruleText(step.triggers[0]!, greek))[0]).toContain('held > 0,5');
+  const all = (words: unknown): string[] => (typeof words === 'string' ? [words] : typeof words === 'object' && words !== null
+    ? Object.values(words).flatMap(all) : []);
+  const prose = [...all(kGreekHelp), ...all(greek), ...all(tourWords('el'))];
+  expect(prose.filter((words) => /\d\.\d/.test(words))).toEqual([]);
+});
+
 it('agents stay as they were until a step says otherwise', () => {
   expect(agentsOf(view())).toEqual(['HOLD', 'PEG', 'AXLE']);
   const cells = stepsOf(view(), 'use').map((step) => step.cells.map((c) => `${c.agent}${c.on ? '+' : '-'}${c.said ? '!' : ''}`).join(' '));

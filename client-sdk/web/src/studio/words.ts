@@ -101,6 +101,8 @@ const kEnglish = {
   addTaken: 'This name is taken.',
   duplicate: 'Duplicate',
   del: 'Delete',
+  /** Numbers within sentences; fields have points in all languages. */
+  decimal: (numbers: string) => numbers,
   listed: '; ',
   usual: (value: string) => `usually ${value}`,
   range: (least: string, most: string) => `${least} to ${most}`,

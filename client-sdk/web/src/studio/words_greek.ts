@@ -95,6 +95,7 @@ export const kGreek: StudioWords = {
   addTaken: 'Το όνομα αυτό υπάρχει ήδη.',
   duplicate: 'Αντίγραφο',
   del: 'Διαγραφή',
+  decimal: (numbers) => numbers.replace(/(\d)\.(?=\d)/g, '$1,'),
   listed: '· ',
   usual: (value) => `συνήθως ${value}`,
   range: (least, most) => `${least} έως ${most}`,

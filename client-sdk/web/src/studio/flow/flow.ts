@@ -77,11 +77,12 @@ export function firstFieldOf(trigger: MetaSet): string {
 
 /** "height > 0.965 for 0.3 s → guide". */
 export function ruleText(trigger: MetaSet, words: StudioWords): string {
-  const one = (set: MetaSet): string => [word(set, 'quantity') || '?', kSigns[word(set, 'op')] ?? '?', word(set, 'value') || '?'].join(' ');
+  const one = (set: MetaSet): string => [word(set, 'quantity') || '?',
+    kSigns[word(set, 'op')] ?? '?', words.decimal(word(set, 'value')) || '?'].join(' ');
   const joined = rulesOf(trigger).map(one).join(word(trigger, 'match') === 'any' ? words.or : words.and);
   const hold = word(trigger, 'holdSeconds');
   const next = word(trigger, 'next') || 'end';
-  return `${joined}${hold && Number(hold) > 0 ? words.heldFor(hold) : ''} → ${next === 'end' ? words.theEnd : next}`;
+  return `${joined}${hold && Number(hold) > 0 ? words.heldFor(words.decimal(hold)) : ''} → ${next === 'end' ? words.theEnd : next}`;
 }
 
 /** A value that a step's triggers wait for. */

@@ -1,5 +1,5 @@
 // Words about scripted visits, beside a draft that is tried.
-import type { Language } from '../words';
+import { studioWords, type Language } from '../words';
 import type { Move } from './moves';
 
 export interface VisitWords {
@@ -30,6 +30,8 @@ export interface VisitWords {
 
 const place = (p: readonly number[]): string => p.map((x) => x.toFixed(2)).join(' ');
 const size = (x: number): string => Math.abs(x).toFixed(2);
+
+const kDecimal = studioWords('el').decimal;
 
 const kEnglish: VisitWords = {
   resting: 'While the draft runs, you can show here once what a visitor is to do, and have a scripted ' +
@@ -100,11 +102,11 @@ const kGreek: VisitWords = {
     switch (move.kind) {
       case 'reach': return `απλώστε το χέρι προς ${move.body}`;
       case 'grasp': return `πιάστε ${move.body}`;
-      case 'move_to': return `φέρτε ${move.body} στο ${place(move.position)}`;
-      case 'turn': return `γυρίστε ${move.joint} κατά ${size(move.turns)} στροφές ${move.turns < 0 ? 'ανάποδα' : 'εμπρός'}`;
+      case 'move_to': return `φέρτε ${move.body} στο ${kDecimal(place(move.position))}`;
+      case 'turn': return `γυρίστε ${move.joint} κατά ${kDecimal(size(move.turns))} στροφές ${move.turns < 0 ? 'ανάποδα' : 'εμπρός'}`;
       case 'swing': return `κουνήστε ${move.joint} πέρα-δώθε ${move.cycles} φορές`;
       case 'release': return 'αφήστε';
-      case 'wait': return `περιμένετε ${move.seconds.toFixed(1)} s`;
+      case 'wait': return `περιμένετε ${kDecimal(move.seconds.toFixed(1))} s`;
     }
   },
 };
