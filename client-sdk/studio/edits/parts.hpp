@@ -28,6 +28,7 @@ struct Part {
   std::string_view body;    ///< its attributes, but for name and place
   std::string_view effort;  ///< effortScale of what a hand can take; empty: a hand cannot take it
   std::array<PartShape, 2> shapes;
+  int teeth = 0;  ///< of a spur gear, whose first shape is made of them; 0: it is none
 };
 
 [[nodiscard]] std::span<const Part> parts();

@@ -173,7 +173,9 @@ SchemaJson parameter_json(const state::ParameterType& parameter) {
     out["default"] = parameter.default_text;
   } else if (parameter.kind == state::ParameterKind::boolean) {
     out["default"] = parameter.default_value != 0;
-  } else if (parameter.kind == state::ParameterKind::number || parameter.kind == state::ParameterKind::numbers) {
+  } else if ((parameter.kind == state::ParameterKind::number || parameter.kind == state::ParameterKind::numbers) &&
+             parameter.default_value >= parameter.min && parameter.default_value <= parameter.max) {
+    // What lies beyond the ends is no usual value: one of several keys must be written.
     out["default"] = parameter.default_value;
   }
   return out;

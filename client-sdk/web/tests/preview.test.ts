@@ -1,3 +1,4 @@
+import { LostHold } from '../src/studio/preview/lost_hold';
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import { Api, ApiError } from '../src/console/api';
 import { Draft } from '../src/studio/draft';
@@ -19,6 +20,27 @@ const view = viewOf({ revision: 3, metadata: set('mechane:scenario', set('activi
     rule('trigger:2', 'height', '>', 'high')))))) });
 const one = (v: number): Float32Array => Float32Array.of(v);
 const box = { left: 10, top: 0, width: 100, height: 50 };
+
+it('a hand that was torn from what it held is told from one that was opened, and from a step that ends the hold', () => {
+  const event = (kind: string, tick = 0) => ({ tick, kind, subject: 'draft/0', object: 'DRUM', value: 0 });
+  const after = (...acts: ((hold: LostHold) => void)[]): string => {
+    const hold = new LostHold();
+    hold.hear(event('grasped', 10), 0);
+    for (const act of acts) act(hold);
+    return hold.at(9_000);
+  };
+  const torn = (hold: LostHold): void => hold.hear(event('released', 5_000), 5_000);
+  expect(after(torn)).toBe('DRUM');
+  expect(after((hold) => hold.letGo(4_900), torn)).toBe('');
+  expect(after((hold) => hold.letGo(1_000), torn)).toBe('DRUM');
+  expect(after((hold) => hold.hear(event('step_started', 5_000), 4_999), torn)).toBe('');
+  expect(after(torn, (hold) => hold.hear(event('step_started', 5_001), 5_002))).toBe('');
+  expect(after(torn, (hold) => hold.hear(event('grasped', 5_400), 5_400))).toBe('');
+  expect(after(torn, (hold) => hold.forget())).toBe('');
+  const early = new LostHold();
+  torn(early);
+  expect(early.at(5_100)).toBe('');  // the hand goes back for it
+});
 
 it('reads what the gateway tells of a preview, whatever is missing', () => {
   for (const nothing of [null, [], 'x', {}, { state: 'else', still: [null, { reasons: 3 }], said: 4 }])

@@ -4,7 +4,7 @@ import type { PoseArray } from '../src/wire/messages';
 import { degreesOf, numbersFrom, quaternionFrom, switchCommands, wordsCommand, written, type Command } from '../src/studio/commands';
 import { Draft, type DraftRequests, type DraftState, type Order } from '../src/studio/draft';
 import { exhibitName, filesOf, isTaken, massOf, nodesOf, plainName } from '../src/studio/shelf/files';
-import { agentsOf, ruleText, stepsOf } from '../src/studio/flow/flow';
+import { agentsOf, firstFieldOf, ruleText, stepsOf } from '../src/studio/flow/flow';
 import { jointsOfMoved } from '../src/studio/picture/left_behind';
 import { joinCommands, markOfJoint, markOfPlan, movableBodies, newPlan, stopsOf } from '../src/studio/picture/joint';
 import { isInPicture, unseenFrom } from '../src/studio/picture/seen';
@@ -22,6 +22,9 @@ import type { Workspace } from '../src/studio/workspace.svelte';
 import { missingIn, wordGroups } from '../src/studio/flow/texts';
 import { rowAround, rowsOf, treeOf, whereIs } from '../src/studio/tree';
 import { childSets, freePlace, metaAt, stringAt, viewOf, libraryOf, versionsOf, type View } from '../src/studio/view';
+import { firstCommands, jointsFor } from '../src/studio/inspector/first_values';
+import { nameFault } from '../src/studio/naming';
+import { freeTitles, nameOfTitle } from '../src/studio/shelf/new_exhibit';
 import { studioWords } from '../src/studio/words';
 
 const value = (name: string, value: unknown) => ({ kind: 'value', name, value, line: 1 });
@@ -182,6 +185,55 @@ it('what lies beside the picture of the first view is told', () => {
   expect([unseenFrom(draft, null), unseenFrom(viewOf(null), [0, 0, 0])]).toEqual(['', '']);
 });
 
+it('gears begin with the teeth of their wheels, or with usual ones', () => {
+  const wheel = (def: string, teeth: number) => ({ def, type: 'RigidBody',
+    children: [{ def: `${def}_TEETH_${teeth}`, type: 'CollidableShape' }] });
+  const draft = view({ outline: [wheel('SMALL', 12), wheel('LARGE', 36)], bodies: [{ def: 'SMALL' }, { def: 'LARGE' }, { def: 'PLAIN' }],
+    joints: [{ def: 'A', type: 'SingleAxisHingeJoint', body1: 'FRAME', body2: 'LARGE' },
+      { def: 'B', type: 'SingleAxisHingeJoint', body2: 'SMALL' }, { def: 'C', type: 'SingleAxisHingeJoint', body2: 'PLAIN' },
+      { def: 'RACK', type: 'SliderJoint', body2: 'PLAIN' }, { def: 'BALL', type: 'BallJoint' }] });
+  expect(jointsFor(draft)).toEqual(['A', 'B', 'C', 'RACK']);
+  const made = (type: string, joints: Record<string, string>) =>
+    firstCommands(draft, 'agents/G', type, joints).map((c) => (c.op === 'set' ? [c.path.slice('agents/G/'.length), c.value] : []));
+  expect(made('geometry.gear', { joint1: 'A', joint2: 'B' })).toEqual([['joint1', 'A'], ['joint2', 'B'], ['teeth', [36, 12]]]);
+  expect(made('geometry.gear', { joint1: 'B', joint2: 'C' })[2]).toEqual(['teeth', [12, 24]]);
+  expect(made('geometry.gear', { joint1: '', joint2: '' })).toEqual([['teeth', [12, 24]]]);
+  expect(made('geometry.gear', { joint1: 'B', joint2: 'RACK' })[2]).toEqual(['radius', 0.1]);
+  expect(made('geometry.gear', { joint1: 'RACK', joint2: 'B' })[2]).toEqual(['ratio', 1]);
+  expect(made('geometry.worm', { joint1: 'C', joint2: 'A' })[2]).toEqual(['teeth', 36]);
+  expect(made('geometry.ratchet', { joint: 'RACK' })[1]).toEqual(['pitch', 0.02]);
+  expect(made('geometry.rope', {})).toEqual([]);
+});
+
+it('a new exhibit has titles and a name that no other has', () => {
+  const exhibit = (name: string, title: object) => ({ name, title, draft: null, picture: null });
+  const titles = (...exhibits: object[]) => freeTitles(libraryOf({ exhibits, templates: [] }));
+  expect(titles()).toEqual({ el: 'Το έκθεμά μου', en: 'My exhibit' });
+  expect(titles(exhibit('a', { el: 'Το έκθεμά μου' }), exhibit('my-exhibit-2', {})).en).toBe('My exhibit 3');
+  expect(['My winch', 'No. 2 of St. Mark', 'Βαρούλκο'].map(nameOfTitle)).toEqual(['my-winch', 'no-2-of-st-mark', '']);
+});
+
+it('what is wrong with a name is said, and nothing of one that is right', () => {
+  const words = studioWords('en');
+  for (const right of ['my-crane', '2-cranes', ' my-crane ', 'a', '']) expect(nameFault(right, 'page', words)).toBe('');
+  for (const right of ['CRANK_2', 'a-b']) expect(nameFault(right, 'thing', words)).toBe('');
+  for (const [wrong, kind, why] of [['my crane', 'page', /blanks/], ['My-crane', 'page', /“M” is a capital/], ['crane_2', 'page', /“_”/],
+    ['-crane', 'page', /begin with “-”/], ['crαne', 'page', /“α” is a Greek letter/], ['2CRANK', 'thing', /begin with “2”/],
+    ['CRANΚ', 'thing', /“Κ” is a Greek letter/], ['CRANK!', 'thing', /“!”/]] as const)
+    expect(nameFault(wrong, kind, words)).toMatch(why);
+  expect(nameFault('Γερανός', 'page', studioWords('el'))).toContain('«Γ» είναι ελληνικό');
+});
+
+it('numbers in Greek sentences have a comma, and those of other languages a point', () => {
+  const [greek, english] = [studioWords('el'), studioWords('en')];
+  expect([greek, english].map((w) => w.decimal('0.5 -1.25 m, 3. 1e-3'))).toEqual(['0,5 -1,25 m, 3. 1e-3', '0.5 -1.25 m, 3. 1e-3']);
+  expect(stepsOf(view(), 'use').map((step) => ruleText(step.triggers[0]!, greek))[0]).toContain('held > 0,5');
+  const all = (words: unknown): string[] => (typeof words === 'string' ? [words] : typeof words === 'object' && words !== null
+    ? Object.values(words).flatMap(all) : []);
+  const prose = [...all(kGreekHelp), ...all(greek), ...all(tourWords('el'))];
+  expect(prose.filter((words) => /\d\.\d/.test(words))).toEqual([]);
+});
+
 it('agents stay as they were until a step says otherwise', () => {
   expect(agentsOf(view())).toEqual(['HOLD', 'PEG', 'AXLE']);
   const cells = stepsOf(view(), 'use').map((step) => step.cells.map((c) => `${c.agent}${c.on ? '+' : '-'}${c.said ? '!' : ''}`).join(' '));
@@ -192,6 +244,8 @@ it('agents stay as they were until a step says otherwise', () => {
   expect(switchCommands(view(), turn, 'HOLD', 'on').map((c) => c.op)).toEqual(['set', 'remove']);
   const rules = stepsOf(view(), 'use').map((step) => ruleText(step.triggers[0]!, studioWords('en')));
   expect(rules).toEqual(['held > 0.5 for 0.2 s → turn', 'held < 1 or a = 2 → end']);
+  const fields = stepsOf(view(), 'use').map((step) => firstFieldOf(step.triggers[0]!));
+  expect(fields).toEqual(['trigger:1/quantity', 'trigger:1/rule:1/quantity']);
 });
 
 it('a joint in the making becomes one step, with its axis in the world and stops that go together', () => {
@@ -263,6 +317,8 @@ it('a stop of the tour is done when the draft says so, and points at what is the
   expect(kStops.slice(0, 5).map((stop) => isDone(stop, first))).toEqual([true, false, false, false, false]);
   const later = ws([body('LOAD', 0, { mass: '15' }), body('CRANK', 0.7)], { joints: [{ def: 'JOINT_1', body2: 'CRANK', fields: {} }] });
   expect(crankOf(later.view)).toBe('CRANK');
+  const low = { def: 'CRANK', pose: [0.7, 0.5, 0, 0, 0, 0, 1], fields: {} };
+  expect(isDone('place', ws([body('LOAD', 0), low]))).toBe(false);  // as high as the other
   expect(kStops.slice(2, 8).map((stop) => isDone(stop, later))).toEqual([true, true, true, true, false, false]);
   expect(targetOf('make', null)).toBe('[data-tour="new"]');
   expect(targetOf('words', { ...later, state: { view: later.view } } as unknown as Workspace)).toBe('[data-part="words"]');

@@ -1,8 +1,11 @@
 // Drafts on the shelf: whose they are, who was first, what is published and what is kept.
 #include "client-sdk/studio/shelf/shelf.hpp"
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <span>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -498,6 +501,37 @@ TEST(Schema, HasTheReadersTables) {
   EXPECT_EQ(named(named(schema["agents"], "geometry.rope")["keys"], "diameter")["unit"], "m");
   EXPECT_EQ(named(named(schema["nodes"], "RigidBody")["keys"], "mass")["x3d"], "SFFloat");
   EXPECT_EQ(schema["parts"].size(), parts().size());
+  // What must be written, or one of several of which one must, has no usual value.
+  const json gear = named(schema["agents"], "geometry.gear");
+  for (const char* key : {"teeth", "radius"})
+    EXPECT_FALSE(named(gear["keys"], key).contains("default")) << key;
+  EXPECT_EQ(named(gear["keys"], "efficiency")["default"], 1);
+}
+
+TEST(Library, GearsMeshBesideAndAboveEachOther) {
+  // How far the corner of a tooth that is nearest to the line between two axles is from it, counterclockwise.
+  const auto reach = [](const Part& part, double toward) {
+    const std::string text = text_of(part, "G", "0 0 0");
+    const std::size_t begin = text.find("crossSection='") + 14;
+    std::istringstream corners(text.substr(begin, text.find('\'', begin) - begin));
+    double tooth = 9, x = 0, z = 0;
+    int count = 0;
+    for (; corners >> x >> z; ++count)
+      if (const double turn = std::remainder(std::atan2(-z, x) - toward, 2 * std::numbers::pi);
+          std::hypot(x, z) > 0.01 * part.teeth && std::abs(turn) < std::abs(tooth))
+        tooth = turn;
+    EXPECT_EQ(count, 4 * part.teeth + 1);
+    EXPECT_THAT(text, ::testing::HasSubstr("name='collides' value='false'"));
+    return tooth * 0.01 * part.teeth;  // m, along the circle where they meet
+  };
+  for (const Part& one : parts())
+    for (const Part& other : parts())
+      for (const double toward : {0.0, std::numbers::pi / 2, std::numbers::pi, -std::numbers::pi / 2})
+        if (one.teeth > 0 && other.teeth > 0) {
+          // The nearest corner of either tooth is on its own side of the line between the axles.
+          EXPECT_GT(reach(one, toward), 0.004) << one.name;
+          EXPECT_GT(reach(other, toward + std::numbers::pi), 0.004) << other.name;
+        }
 }
 
 }  // namespace

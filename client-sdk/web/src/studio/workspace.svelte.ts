@@ -146,7 +146,8 @@ export class Workspace {
     if (!place) return;
     // Beside a preview, so that what runs stays in sight.
     if (this.part === 'try') this.beside = 'properties';
-    else this.part = 'scene';
+    // A rule's form stands beside the flow, too, where its step is read.
+    else if (this.part !== 'flow' || !path.startsWith('activities/')) this.part = 'scene';
     this.selection = place.selection;
     this.wanted = place.field;
   }

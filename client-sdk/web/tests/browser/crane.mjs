@@ -71,7 +71,8 @@ const parts = {
     await page.fill('input[type=password]', password);
     await page.click('form button');
     await page.selectOption('form.card select', 'template:empty');
-    await page.fill('form.card input', name);
+    await page.fill('form.card input >> nth=0', 'The crane');
+    await page.getByLabel('Its name').fill(name);
     await page.click('form.card button.main');
     await until(page, 'the exhibit is drawn', (s) => s.complete, 60);
   },

@@ -54,16 +54,43 @@ const parts = {
     await accessible('exhibits');
     // One that was exported elsewhere.
     await page.selectOption('form select', 'file');
-    const give = (text) => page.setInputFiles('input[type=file]', { name: 'My Crane.zip', mimeType: '', buffer: Buffer.from(text) });
+    const give = (text) => page.setInputFiles('input[type=file]', { name: 'My Crane 2.zip', mimeType: '', buffer: Buffer.from(text) });
     await give('a text');
-    assert.equal(await page.inputValue('form input:not([type=file])'), 'my-crane');
+    assert.equal(await page.inputValue('form input:not([type=file])'), 'my-crane-2');
     await page.click('form button.main');
     await page.waitForSelector('[role=alert]:has-text("this is no zip archive")');
     await accessible('import');
     await give('PK');
     await page.click('form button.main');
     await page.waitForSelector('.saved');
-    assert.equal(gateway.asked.at(-1).path, '/api/studio/drafts/my-crane/import');
+    assert.equal(gateway.asked.at(-1).path, '/api/studio/drafts/my-crane-2/import');
+    await page.click('header button:has-text("All exhibits")');
+    // What is wrong with a name is said, and nothing of one that is right.
+    await page.selectOption('form select', 'template:empty');
+    const name = page.getByLabel('Its name');
+    // It has a title of its own, and the name follows it until somebody writes one.
+    const title = (language) => page.getByLabel(`Title for visitors, ${language}`);
+    assert.deepEqual([await title('Greek').inputValue(), await title('English').inputValue(), await name.inputValue()],
+      ['Το έκθεμά μου', 'My exhibit', 'my-exhibit']);
+    await title('Greek').fill('Το βαρούλκο μου');
+    await title('English').fill('My winch');
+    assert.equal(await name.inputValue(), 'my-winch');
+    for (const [given, why] of [['My crane', '“M” is a capital letter'], ['my-crane', 'This name is taken'],
+      ['crαne', 'is a Greek letter']]) {
+      await name.fill(given);
+      await page.waitForSelector(`form [role=alert]:has-text("${why}")`);
+    }
+    await accessible('name');
+    await name.fill(' my-winch ');
+    await page.waitForSelector('form [role=alert]', { state: 'detached' });
+    assert.ok(await name.evaluate((input) => input.checkValidity() && input.title === ''));
+    await page.click('form button.main');
+    await page.waitForSelector('.saved');
+    assert.deepEqual(gateway.asked.slice(-2).map(({ path, body }) => [path, body.from ?? body.commands]), [
+      ['/api/studio/drafts', 'template:empty'], ['/api/studio/drafts/my-winch/commands', [
+        { op: 'set', path: 'text/title.el', value: 'Το βαρούλκο μου' }, { op: 'set', path: 'text/title.en', value: 'My winch' }]]]);
+    gateway.back(gateway.done, []);
+    gateway.revision = 3;
     await page.click('header button:has-text("All exhibits")');
     await accessible('exhibits', 'dark');
     await page.click('button:text-is("Show me how")');
@@ -185,6 +212,24 @@ const parts = {
     await page.waitForSelector('.notice', { state: 'detached' });
     assert.equal(await page.inputValue(field('DRUM/mass')), '13');
   },
+  async 'the parts stay where they are whichever is shown, each with the contents beside it'() {
+    const places = () => page.locator('nav [data-part]').evaluateAll((all) => all.map((one) => {
+      const { left, top, width } = one.getBoundingClientRect();
+      return [one.dataset.part, left, top, width].join(' ');
+    }));
+    const before = await places();
+    for (const part of ['Flow', 'Words', 'Files', 'Try it', 'Versions', 'Scene']) {
+      await go(part);
+      assert.deepEqual(await places(), before, part);
+      assert.ok(await page.isVisible('[role=tree]'), part);
+    }
+    // What is chosen there is seen beside the preview.
+    await go('Try it');
+    await choose('LOAD');
+    await page.waitForSelector(field('LOAD/mass'));
+    await page.click('.inspector button:text-is("Watch")');
+    await go('Scene');
+  },
   async 'agents are switched by step, with what is inherited beside it'() {
     await go('Flow');
     await page.click('[aria-label="RATCHET in guide: on, as before"]');
@@ -193,7 +238,10 @@ const parts = {
     await page.waitForSelector('[aria-label="RATCHET in guide: off"]');
     assert.deepEqual(sent(), [{ op: 'set', path: 'activities/use/steps/guide/enable', value: ['GUIDE'] },
       { op: 'set', path: 'activities/use/steps/guide/disable', value: ['HOLD', 'RATCHET'] }]);
-    assert.ok(await page.isVisible('text=height > 0.965 → guide'));
+    // A rule leads to its form, beside the flow.
+    await page.click('button.rule:text-is("height > 0.965 → guide")');
+    await page.waitForSelector('[data-field="activities/use/steps/lift/trigger:1/quantity"] :is(input, select):focus');
+    assert.equal(await page.getAttribute('nav [data-part=flow]', 'aria-current'), 'page');
     await accessible('flow');
   },
   async 'a step is moved by key and by button, its rules lead on in the new order, and the focus stays'() {
@@ -394,6 +442,20 @@ const parts = {
     await page.click('.bar button:text-is("Undo")');
     await until(page, 'it is gone', (s) => s.joint === null && s.selection === 'path:');
   },
+  async 'a pair of gears has its joints and teeth as it is made'() {
+    await page.click('[aria-label="Add to the exhibit"]');
+    await page.selectOption('dialog select >> nth=0', 'agents');
+    await page.selectOption('dialog select >> nth=1', 'geometry.gear');
+    assert.deepEqual(await page.$$eval('dialog select', (all) => all.slice(2).map((s) => s.value)), ['AXLE', '']);
+    await page.fill('dialog input', 'GEARS');
+    await accessible('gears');
+    await page.click('dialog button.main');
+    await page.waitForSelector('[data-field="agents/GEARS/teeth"]');
+    assert.deepEqual(sent(), [{ op: 'set', path: 'agents/GEARS/type', value: 'geometry.gear' },
+      { op: 'set', path: 'agents/GEARS/joint1', value: 'AXLE' }, { op: 'set', path: 'agents/GEARS/teeth', value: [12, 24] }]);
+    await page.click('.bar button:text-is("Undo")');
+    await page.waitForSelector('[data-row="path:agents/GEARS"]', { state: 'detached' });
+  },
   async 'a view is kept, and looked from'() {
     await page.focus('[role=application]');
     await page.keyboard.press('ArrowLeft');
@@ -407,6 +469,15 @@ const parts = {
     const ahead = (c) => [3, 4, 5].map((i) => (c[i] - c[i - 3]) / Math.hypot(c[3] - c[0], c[4] - c[1], c[5] - c[2]));
     ahead(again).forEach((x, i) => assert.ok(Math.abs(x - ahead(camera)[i]) < 1e-3, 'in the same direction'));
     await accessible('view');
+    // Another view takes its place, and does not stand beside it.
+    await page.focus('[role=application]');
+    await page.keyboard.press('ArrowUp');
+    await until(page, 'another view', (s) => Math.abs(s.camera[1] - again[1]) > 0.01);
+    assert.ok(await page.isVisible('.views button:text-is("Keep it as one more")'));
+    await page.click('.views button:text-is("Replace VIEW_2 by this view")');
+    await saved();
+    assert.deepEqual(sent().map(({ op, node }) => [op, node]), [['move', 'VIEW_2'], ['field', 'VIEW_2']]);
+    assert.ok(gateway.draft.views.length === 2 && Math.abs(gateway.draft.views[1].pose[1] - again[1]) > 0.01);
   },
   async 'a mesh is brought in, another of its name only when asked, and becomes a body'() {
     await go('Files');
@@ -500,6 +571,11 @@ const parts = {
     const { tick } = gateway.trial.moment();
     for (const [kind, at] of [['activity_started', tick], ['grasped', tick + 1], ['released', tick + 2000]])
       gateway.say({ type: 'event', kind, tick: at, subject: 'studio-my-crane/0', object: 'DRUM', value: 0 });
+    // Nobody has opened the hand.
+    await page.waitForSelector('.notice:has-text("The hand has lost DRUM")');
+    await accessible('lost');
+    await page.click('.notice button:text-is("Hide")');
+    await page.waitForSelector('.notice', { state: 'detached' });
     await page.click('.visits button:text-is("Keep it as a visit")');
     await page.waitForSelector('.visits p:text-is("The draft has the visit shown now.")');
     assert.deepEqual(gateway.asked.findLast((one) => one.path.endsWith('/commands')).body.commands.slice(0, 3), [

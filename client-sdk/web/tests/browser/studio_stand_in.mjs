@@ -34,7 +34,9 @@ const kSchema = {
   ],
   agents: [agent('simulation.grasp', [key('bodies', 'strings', { names: 'body' }),
     number('forceLimit', { unit: 'N', least: 0, most: 30 })]),
-    agent('geometry.ratchet', [key('joint', 'string', { names: 'joint' }), number('teeth', { least: 3, most: 200 })])],
+    agent('geometry.ratchet', [key('joint', 'string', { names: 'joint' }), number('teeth', { least: 3, most: 200 })]),
+    agent('geometry.gear', [key('joint1', 'string', { names: 'joint', required: true }),
+      key('joint2', 'string', { names: 'joint', required: true }), key('teeth', 'numbers', { least: 1, most: 1e5, count: 2 })])],
   machines: [],
   nodes: [{ name: 'RigidBody', doc: 'a body', keys: [number('mass', { unit: 'kg', least: 0.001, most: 1e6, doc: 'how heavy it is' }),
     key('fixed', 'boolean'), key('position', 'vector', { unit: 'm' })], sets: [] },
@@ -359,7 +361,7 @@ export class StudioStandIn extends StandIn {
       return [200, user];
     }
     if (!this.signedIn) return [401, { error: 'nobody is signed in', remedy: 'sign in' }];
-    const rest = path.replace('/api/studio/drafts/my-crane', '');
+    const rest = path.replace(/^\/api\/studio\/drafts\/[^/]+/, '');
     if (method === 'POST') this.asked.push({ path, body });
     if (path === '/api/me') return [200, user];
     if (path === '/api/kiosks') return [200, { kiosks: [{ kiosk: 'hall', scenario: 'village', address: '/kiosk/hall?token=t',

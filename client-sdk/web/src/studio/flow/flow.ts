@@ -69,13 +69,20 @@ function rulesOf(trigger: MetaSet): MetaSet[] {
   return rules.length > 0 ? rules : [trigger];
 }
 
+/** The field that a trigger's form begins with, from the step: "trigger:1/quantity". */
+export function firstFieldOf(trigger: MetaSet): string {
+  const [rule] = rulesOf(trigger);
+  return `${trigger.name}/${rule === trigger ? '' : `${rule!.name}/`}quantity`;
+}
+
 /** "height > 0.965 for 0.3 s → guide". */
 export function ruleText(trigger: MetaSet, words: StudioWords): string {
-  const one = (set: MetaSet): string => [word(set, 'quantity') || '?', kSigns[word(set, 'op')] ?? '?', word(set, 'value') || '?'].join(' ');
+  const one = (set: MetaSet): string => [word(set, 'quantity') || '?',
+    kSigns[word(set, 'op')] ?? '?', words.decimal(word(set, 'value')) || '?'].join(' ');
   const joined = rulesOf(trigger).map(one).join(word(trigger, 'match') === 'any' ? words.or : words.and);
   const hold = word(trigger, 'holdSeconds');
   const next = word(trigger, 'next') || 'end';
-  return `${joined}${hold && Number(hold) > 0 ? words.heldFor(hold) : ''} → ${next === 'end' ? words.theEnd : next}`;
+  return `${joined}${hold && Number(hold) > 0 ? words.heldFor(words.decimal(hold)) : ''} → ${next === 'end' ? words.theEnd : next}`;
 }
 
 /** A value that a step's triggers wait for. */

@@ -8,6 +8,7 @@ import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type Qua
 import type { Draft } from '../draft';
 import { wantedIn } from '../flow/flow';
 import type { DeviceOrder } from './devices';
+import { kFetches_ms, LostHold } from './lost_hold';
 import type { Preview } from './preview';
 import { Series } from './preview_series';
 import { sentence, type StudioRequests } from '../requests';
@@ -46,6 +47,10 @@ export class PreviewDesk {
   drawn = $state(0);
   /** Grows with what the author has done in it. */
   acts = $state(0);
+  /** What the author's hand has lost without being opened; "": nothing. */
+  lost = $state('');
+  private readonly hold = new LostHold();
+  private looksForIt: ReturnType<typeof setTimeout> | undefined;
   readonly series = new Series();
   private readonly recorder = new Recorder();
   private readonly writer = new TapeWriter();
@@ -94,6 +99,7 @@ export class PreviewDesk {
   }
   /** Starts it, or starts it anew, with the draft as it is stored. */
   start(revision: number, step: string): Promise<void> {
+    this.forgetLost();
     return this.order(() => this.requests.startPreview(this.name, revision, step));
   }
   stop(): Promise<void> {
@@ -136,6 +142,15 @@ export class PreviewDesk {
   /** All that was seen of it since it began is shown again, or it is itself. */
   playBack(on: boolean): void {
     this.tape = on ? new Tape(this.writer.bytes()) : null;
+  }
+  /** The author has opened the hand, in the page of the trial. */
+  letGo(): void {
+    this.hold.letGo(performance.now());
+  }
+  forgetLost(): void {
+    clearTimeout(this.looksForIt);
+    this.hold.forget();
+    this.lost = '';
   }
   forgetShown(): void {
     this.recorder.clear();
@@ -214,6 +229,7 @@ export class PreviewDesk {
   /** What was edited meanwhile goes into the world that runs; once for each state of the draft. It disables no button. */
   private carryOn(revision: number): void {
     this.carried = revision;
+    this.letGo();  // all hands do
     this.line = this.line.then(() => this.ask(() => this.requests.editPreview(this.name, revision).catch((error: unknown) => {
       // Somebody was quicker: what runs now is seen by a look.
       if (error instanceof ApiError && error.status === 409) return this.requests.preview(this.name);
@@ -240,6 +256,7 @@ export class PreviewDesk {
     this.writer.clear();
     this.tape = null;
     this.forgetShown();
+    this.forgetLost();
     this.world = kNothingKnown;
     this.connection = new Connection(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${socket}`, {
       opened: () => undefined,
@@ -265,7 +282,15 @@ export class PreviewDesk {
     const { name, state } = this.now?.visit ?? { name: '', state: 'done' };
     this.recorder.hear(event, this.world);
     if (name !== '' && state === 'playing') this.recorder.stop();  // it is a visitor who does it
+    else this.watchHold(event);
     this.acts = this.recorder.count;
+  }
+  private watchHold(event: WorldEvent): void {
+    this.hold.hear(event, performance.now());
+    if (event.kind === 'grasped') this.lost = '';
+    if (event.kind !== 'released') return;
+    clearTimeout(this.looksForIt);
+    this.looksForIt = setTimeout(() => (this.lost = this.hold.at(performance.now())), kFetches_ms + kDrawEvery_ms);
   }
   private hearFrame(bytes: ArrayBuffer): void {
     const frame = decodeFrame(bytes);

@@ -15,7 +15,10 @@ const kRule = 'activities/lift/steps/wind/trigger:1/value';
 const kFirst = { mass: 10, height: 0.6 };
 /** The stone has left the ground. */
 const kLifted_m = 0.45;
+/** Beside the other crank, and as high. */
 const kAside_m = 0.4;
+const kHeight_m = 0.9;
+const kNear_m = 0.03;
 
 /** The draft is one that the tour can go on with. */
 export const isOfTour = (view: View): boolean => nodeAt(view, kStone) !== undefined && metaAt(view, kHand) !== undefined;
@@ -35,7 +38,10 @@ export function isDone(stop: StopName, ws: Workspace): boolean {
     case 'stone': return ws.selection === nodeId(kStone);
     case 'weight': return Number(nodeAt(view, kStone)?.fields.mass ?? kFirst.mass) !== kFirst.mass;
     case 'insert': return crank !== '';
-    case 'place': return (outlineAt(view, crank)?.pose?.[0] ?? 0) >= kAside_m;
+    case 'place': {
+      const [x = 0, y = 0] = outlineAt(view, crank)?.pose ?? [];
+      return x >= kAside_m && Math.abs(y - kHeight_m) <= kNear_m;
+    }
     case 'join': return crank !== '' && view.joints.some((j) => j.body1 === crank || j.body2 === crank);
     case 'hand': return crank !== '' && stringsAt(view, `${kHand}/bodies`).includes(crank);
     case 'words': return languagesOf(view).every((code) => stringAt(view, `${crank}/mechane:body/text/title.${code}`) !== '');
@@ -52,7 +58,7 @@ const row = (id: string): string => `[data-row="${CSS.escape(id)}"]`;
 const within = (ws: Workspace, part: PartName, there: string): string => (ws.part === part ? there : `[data-part="${part}"]`);
 /** A field of what is selected, or, until then, its row in the contents. */
 const chosen = (ws: Workspace, id: string, there: string): string =>
-  (ws.selection === id ? there : ws.part === 'try' ? '[data-part="scene"]' : row(id));
+  (ws.selection === id && (ws.part !== 'try' || ws.beside === 'properties') ? there : row(id));
 
 /** A selector of what the stop points at. */
 export function targetOf(stop: StopName, ws: Workspace | null): string {
@@ -66,7 +72,7 @@ export function targetOf(stop: StopName, ws: Workspace | null): string {
     case 'join': return ws.joint ? '[data-tour="join"]' : within(ws, 'scene', '[data-tour="joint"]');
     case 'hand': return chosen(ws, pathId(kHand), field(`${kHand}/bodies`));
     case 'words': return within(ws, 'words', `.row:has(${field(`${crank}/mechane:body/text/title.${ws.page.code}`)})`);
-    case 'rule': return ws.selection === pathId(kRule.split('/').slice(0, -2).join('/')) && ws.part !== 'flow'
+    case 'rule': return ws.selection === pathId(kRule.split('/').slice(0, -2).join('/')) && ws.part !== 'try'
       ? field(kRule) : within(ws, 'flow', 'button.rule');
     case 'start': return within(ws, 'try', '[data-tour="start"]');
     case 'turn': return within(ws, 'try', '[data-tour="page"]');

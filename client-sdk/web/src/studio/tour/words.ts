@@ -50,13 +50,13 @@ const kEnglish: TourWords = {
   stops: {
     make: {
       title: 'Begin your exhibit',
-      todo: 'Choose the template “A crank and a rope”, write a name such as my-winch, and press Make it.',
-      why: 'You get a draft of your own. Visitors see nothing of it yet.',
+      todo: 'Choose the template “A crank and a rope”, write a title in both languages, such as “My winch”, and press Make it.',
+      why: 'Visitors read the title first. The name follows it. You get a draft of your own; visitors see nothing of it yet.',
       did: 'you have a draft',
     },
     stone: {
       title: 'Look at the stone',
-      todo: 'Click the grey stone in the picture, or LOAD in the contents.',
+      todo: 'Click the small grey stone in the picture, at the end of the rope, or LOAD in the contents. The green block is the ground.',
       why: 'Drag beside the machine to look around it. Show all brings you back.',
       did: 'the stone is chosen',
     },
@@ -74,8 +74,8 @@ const kEnglish: TourWords = {
     },
     place: {
       title: 'Put it in its place',
-      todo: 'Write its position: x 0.7, y 0.9, z 0. Or drag its red arrow to the right.',
-      why: 'x goes to the right, y up, z towards the visitor, in metres.',
+      todo: 'Write its position: x 0.7, y 0.9, z 0.2. It is then as high as the other crank, and its handle as far in front.',
+      why: 'x goes to the right, y up, z towards the visitor, in metres. Its arrows drag it, too.',
       did: 'the crank is in its place',
     },
     join: {
@@ -152,13 +152,13 @@ const kGreek: TourWords = {
   stops: {
     make: {
       title: 'Αρχίστε το έκθεμά σας',
-      todo: 'Διαλέξτε το υπόδειγμα «Μανιβέλα και σχοινί», γράψτε ένα όνομα όπως my-winch και πατήστε «Δημιουργία».',
-      why: 'Αποκτάτε δικό σας σχέδιο. Οι επισκέπτες δεν βλέπουν ακόμη τίποτε.',
+      todo: 'Διαλέξτε το υπόδειγμα «Μανιβέλα και σχοινί», γράψτε τίτλο στις δύο γλώσσες, όπως «Το βαρούλκο μου», και πατήστε «Δημιουργία».',
+      why: 'Τον τίτλο διαβάζουν πρώτα οι επισκέπτες· από τον αγγλικό βγαίνει το όνομα. Το σχέδιο είναι δικό σας: ακόμη δεν το βλέπουν.',
       did: 'έχετε ένα σχέδιο',
     },
     stone: {
       title: 'Δείτε την πέτρα',
-      todo: 'Πατήστε την γκρίζα πέτρα στην εικόνα, ή το LOAD στα περιεχόμενα.',
+      todo: 'Πατήστε στην εικόνα τη μικρή γκρίζα πέτρα στην άκρη του σχοινιού, ή το LOAD στα περιεχόμενα. Το πράσινο είναι το έδαφος.',
       why: 'Σύρετε δίπλα στη μηχανή για να κοιτάξετε γύρω της. Το «Όλα» σας φέρνει πίσω.',
       did: 'διαλέξατε την πέτρα',
     },
@@ -176,8 +176,8 @@ const kGreek: TourWords = {
     },
     place: {
       title: 'Βάλτε τη στη θέση της',
-      todo: 'Γράψτε τη θέση της: x 0,7, y 0,9, z 0. Ή σύρετε το κόκκινο βέλος της δεξιά.',
-      why: 'Το x πάει δεξιά, το y πάνω, το z προς τον επισκέπτη, σε μέτρα.',
+      todo: 'Γράψτε τη θέση της: x 0,7, y 0,9, z 0,2. Έτσι είναι όσο ψηλά και η άλλη και η λαβή της όσο μπροστά.',
+      why: 'Το x πάει δεξιά, το y πάνω, το z προς τον επισκέπτη, σε μέτρα. Τη σέρνουν και τα βέλη της.',
       did: 'η μανιβέλα είναι στη θέση της',
     },
     join: {
@@ -200,7 +200,7 @@ const kGreek: TourWords = {
     },
     rule: {
       title: 'Πείτε πότε τελειώνει',
-      todo: 'Ανοίξτε τη «Ροή», διαλέξτε τον κανόνα «height > 0.6» και γράψτε 0,7 στην τιμή.',
+      todo: 'Ανοίξτε τη «Ροή», διαλέξτε τον κανόνα «height > 0,6» και γράψτε 0,7 στην τιμή.',
       why: 'Το βήμα προχωρά όταν ο κανόνας του δει ότι έγινε: εδώ, μόλις η πέτρα φτάσει τόσο ψηλά, σε μέτρα.',
       did: 'το βήμα έχει τον κανόνα του',
     },

@@ -1,5 +1,5 @@
 // Words about scripted visits, beside a draft that is tried.
-import type { Language } from '../words';
+import { studioWords, type Language } from '../words';
 import type { Move } from './moves';
 
 export interface VisitWords {
@@ -11,7 +11,6 @@ export interface VisitWords {
   midway: string;
   leftOut: string;
   name: string;
-  nameHelp: string;
   mistakes: string;
   save: string;
   replace: string;
@@ -32,6 +31,8 @@ export interface VisitWords {
 const place = (p: readonly number[]): string => p.map((x) => x.toFixed(2)).join(' ');
 const size = (x: number): string => Math.abs(x).toFixed(2);
 
+const kDecimal = studioWords('el').decimal;
+
 const kEnglish: VisitWords = {
   resting: 'While the draft runs, you can show here once what a visitor is to do, and have a scripted ' +
     'visitor do it.',
@@ -43,7 +44,6 @@ const kEnglish: VisitWords = {
   midway: 'This trial began at a later step, and a visit begins at the start: start it anew from there.',
   leftOut: 'A visit has one hand. What a second hand did at the same time is not in it.',
   name: 'Its name',
-  nameHelp: 'Letters a-z, digits and -',
   mistakes: 'and one that lets go half way and turns the wrong way',
   save: 'Keep it as a visit',
   replace: 'Replace the visit',
@@ -83,7 +83,6 @@ const kGreek: VisitWords = {
   midway: 'Αυτή η δοκιμή άρχισε από μεταγενέστερο βήμα, ενώ μια επίσκεψη αρχίζει από την αρχή: ξεκινήστε την πάλι από εκεί.',
   leftOut: 'Μια επίσκεψη έχει ένα χέρι. Ό,τι έκανε ταυτόχρονα ένα δεύτερο χέρι δεν περιλαμβάνεται.',
   name: 'Το όνομά της',
-  nameHelp: 'Γράμματα a-z, ψηφία και -',
   mistakes: 'και μία που αφήνει στη μέση και γυρίζει ανάποδα',
   save: 'Κράτησέ το ως επίσκεψη',
   replace: 'Αντικατάσταση της επίσκεψης',
@@ -103,11 +102,11 @@ const kGreek: VisitWords = {
     switch (move.kind) {
       case 'reach': return `απλώστε το χέρι προς ${move.body}`;
       case 'grasp': return `πιάστε ${move.body}`;
-      case 'move_to': return `φέρτε ${move.body} στο ${place(move.position)}`;
-      case 'turn': return `γυρίστε ${move.joint} κατά ${size(move.turns)} στροφές ${move.turns < 0 ? 'ανάποδα' : 'εμπρός'}`;
+      case 'move_to': return `φέρτε ${move.body} στο ${kDecimal(place(move.position))}`;
+      case 'turn': return `γυρίστε ${move.joint} κατά ${kDecimal(size(move.turns))} στροφές ${move.turns < 0 ? 'ανάποδα' : 'εμπρός'}`;
       case 'swing': return `κουνήστε ${move.joint} πέρα-δώθε ${move.cycles} φορές`;
       case 'release': return 'αφήστε';
-      case 'wait': return `περιμένετε ${move.seconds.toFixed(1)} s`;
+      case 'wait': return `περιμένετε ${kDecimal(move.seconds.toFixed(1))} s`;
     }
   },
 };
