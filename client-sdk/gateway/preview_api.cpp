@@ -129,7 +129,7 @@ Expected<std::string> parse_visit_order(const std::string& body) {
 }
 
 Expected<client::DeviceRequest> parse_device_order(const std::string& body) {
-  constexpr std::array<std::string_view, 4> kActions{"place", "calibrate", "test", "end-test"};
+  constexpr std::array<std::string_view, 4> kDeviceActions{"place", "calibrate", "test", "end-test"};
   const auto wrong = [] {
     return fail(
         ErrorCode::invalid_value, "this asks for nothing that a device does", {},
@@ -140,11 +140,11 @@ Expected<client::DeviceRequest> parse_device_order(const std::string& body) {
   if (!json.is_object()) return wrong();
   const auto user = json.find("user"), action = json.find("action"), place = json.find("place");
   if (user == json.end() || !user->is_number_unsigned() || action == json.end() || !action->is_string()) return wrong();
-  const auto* const named = std::ranges::find(kActions, action->get<std::string>());
-  if (named == kActions.end() || user->get<std::uint64_t>() >= hand::kMaxUsers) return wrong();
+  const auto* const named = std::ranges::find(kDeviceActions, action->get<std::string>());
+  if (named == kDeviceActions.end() || user->get<std::uint64_t>() >= hand::kMaxUsers) return wrong();
   client::DeviceRequest wanted;
   wanted.user = user->get<std::uint32_t>();
-  wanted.action = static_cast<client::DeviceAction>(named - kActions.begin());
+  wanted.action = static_cast<client::DeviceAction>(named - kDeviceActions.begin());
   const bool places = wanted.action == client::DeviceAction::place;
   if (places != (place != json.end())) return wrong();
   if (!places) return wanted;

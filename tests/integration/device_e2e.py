@@ -9,9 +9,8 @@ import time
 import unittest
 import zlib
 
-from harness import BIN, PATIENCE, EndToEnd, marked, wait_until
+from harness import DRIVERS, PATIENCE, EndToEnd, marked, wait_until
 
-DRIVERS = BIN.parent / "test-drivers"
 SILENT_S = 0.02  # without a word from the loop, the driver's process writes zero
 LATE_S = 0.03 * PATIENCE  # what a busy machine may add between the look at the clock and the write
 GOLD = (237, 196, 117)  # of a notice's tile

@@ -17,6 +17,7 @@ sys.path.insert(0, str(ROOT / "deploy/common_lib"))
 from running import network  # noqa: E402
 
 BIN = pathlib.Path(os.environ.get("MECHANE_BIN", ROOT / "build/release/bin"))
+DRIVERS = BIN.parent / "test-drivers"  # of devices that are not there: tests/support/fake_driver.c
 SCENARIO = ROOT / "scenarios/archimedes-screw/archimedes-screw.x3d"
 # A sanitizer makes everything some times slower.
 PATIENCE = float(os.environ.get("MECHANE_PATIENCE", "1"))

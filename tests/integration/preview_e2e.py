@@ -12,7 +12,7 @@ import xml.etree.ElementTree
 
 from browser import Browser, Page, Refused, WithGateway
 from gateway_e2e import SIZE, WebVisitor
-from harness import SCENARIO, EndToEnd, marked, wait_until
+from harness import DRIVERS, SCENARIO, EndToEnd, marked, wait_until
 from touch import Screen
 
 NAME = "windlass"
@@ -254,6 +254,40 @@ class Preview(WithGateway):
         self.assertEqual((len(browser.frame.hands), haptic.running()), (1, True), haptic.text())
         self.assertNotIn("kept", self.tried(page, 4))
         self.assertFalse([line for line in self.preview(page)["said"] if line.startswith("edit ")])
+        self.assertEqual(process.stop(), 0, process.text())
+
+    def test_an_author_tests_a_device_and_puts_its_hand_elsewhere(self):
+        self.environment["MECHANE_DRIVERS"] = str(DRIVERS)
+        process, page = self.gateway()
+        self.posted(page, "/api/studio/drafts", {"name": NAME, "from": "template:crank-and-rope"})
+        preview = self.tried(page, 0)
+        ask = lambda order, status=200: self.posted(page, f"{PREVIEW}/device", {"user": 0, **order}, status)
+        ask({"action": "test"}, 409)  # there is none yet
+        sinks = self.folder / "sinks"
+        where = ("--kiosk", preview["kiosk"], "--domain", str(preview["domain"]), "--center", "0", "1", "0.5")
+        self.start("haptic", "haptic", "--device", f"fake:sinks={sinks}", *where, "--fifo-priority", "0")
+        device = lambda: (self.preview(page).get("devices") or [{}])[0]
+        told = lambda key: device().get("details", {}).get(key)
+        wait_until(lambda: told("wanted_hz") == 1000 and told("rate_hz") > 100, 30, "its author reads how it fares")
+        self.assertEqual((told("peak_force_n"), told("place"), device()["request"]),
+                         (2, {"center_m": [0, 1, 0.5], "turn_rad": 0, "scale": 1}, "none"))
+
+        place = {"center_m": [0.25, 1.5, 0.75], "turn_rad": 0.5, "scale": 2}
+        ask({"action": "place", "place": place})
+        wait_until(lambda: device()["request"] == "done" and told("place") == place, 20, "it is put there")
+        wait_until(lambda: abs(told("hand_m")[1] - 1.5) < 0.01, 20, "and so is its hand")
+        ask({"action": "place", "place": {**place, "scale": 0.5}}, 400)
+        ask({"action": "calibrate"})
+        wait_until(lambda: device()["request"] == "refused", 20, "it is no glove")
+        self.assertIn("glove", device()["refusal"])
+
+        ask({"action": "test"})
+        wait_until(lambda: told("testing"), 20, "it is tested")
+        sinks.write_text("now")
+        wait_until(lambda: told("test_force_n") > 0.1, 20, "the hand is on the floor")
+        self.assertLessEqual(told("test_force_n"), 1)
+        ask({"action": "end-test"})
+        wait_until(lambda: not told("testing"), 20, "the world comes back")
         self.assertEqual(process.stop(), 0, process.text())
 
     @marked("address")

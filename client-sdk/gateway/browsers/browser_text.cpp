@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client-sdk/gateway/browsers/browser_message.hpp"
+#include "client-sdk/gateway/browsers/vector_json.hpp"
 
 namespace mechane::gateway {
 namespace {
@@ -11,10 +12,6 @@ using TextJson = nlohmann::json;
 
 std::string written(const TextJson& json) {
   return json.dump(-1, ' ', false, TextJson::error_handler_t::replace);
-}
-
-TextJson vector_json(const Vec3& p) {
-  return {p.x(), p.y(), p.z()};
 }
 
 TextJson pose_json(const Pose& X) {

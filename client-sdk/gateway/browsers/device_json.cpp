@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "client-sdk/gateway/browsers/vector_json.hpp"
+
 namespace mechane::gateway {
 
 nlohmann::json device_json(const client::DeviceReport& device) {
@@ -16,7 +18,6 @@ nlohmann::json device_json(const client::DeviceReport& device) {
 }
 
 nlohmann::json details_json(const client::DeviceDetails& details) {
-  const auto vector = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
   const client::DeviceLimits& limits = details.limits;
   nlohmann::json out{{"wanted_hz", limits.wanted_hz},
                      {"peak_force_n", limits.peak_force_n},
@@ -26,15 +27,17 @@ nlohmann::json details_json(const client::DeviceDetails& details) {
                      {"max_stiffness_n_per_m", limits.max_stiffness_n_per_m},
                      {"rate_hz", details.rate_hz},
                      {"late_us", details.late_us},
-                     {"hand_m", vector(details.p_WH)},
+                     {"hand_m", vector_json(details.p_WH)},
                      {"force_n", details.force_n},
                      {"testing", details.testing},
                      {"test_force_n", details.test_force_n},
                      {"test_energy_j", details.test_energy_j}};
-  out["place"] = {
-      {"center_m", vector(details.place.p_WD)}, {"turn_rad", details.place.turn_rad}, {"scale", details.place.scale}};
+  out["place"] = {{"center_m", vector_json(details.place.p_WD)},
+                  {"turn_rad", details.place.turn_rad},
+                  {"scale", details.place.scale}};
   if (limits.workspace_min_D_m != limits.workspace_max_D_m)
-    out["workspace_m"] = {{"least", vector(limits.workspace_min_D_m)}, {"greatest", vector(limits.workspace_max_D_m)}};
+    out["workspace_m"] = {{"least", vector_json(limits.workspace_min_D_m)},
+                          {"greatest", vector_json(limits.workspace_max_D_m)}};
   if (details.temperature >= 0) out["temperature"] = details.temperature;
   return out;
 }

@@ -8,7 +8,6 @@
 
 #include "client-sdk/gateway/browsers/device_json.hpp"
 #include "client-sdk/studio/draft/preview_file.hpp"
-#include "client-sdk/studio/view/workable.hpp"
 #include "server/log/log.hpp"
 #include <mechane/proto/names.hpp>
 
@@ -35,16 +34,13 @@ PreviewJson reason_json(const studio::StillReason& reason) {
   return out;
 }
 
-PreviewJson vector_json(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 /// What its author sees of the world that runs.
-void add_world(const KioskHub& hub, const state::WorldDescription& world, const studio::SeenWorld& seen,
-               PreviewJson& out) {
+void add_world(const KioskHub& hub, const state::WorldDescription& world, const MotionWatch& motion, PreviewJson& out) {
   out["step"] = hub.status()->step;
   out["activity"] = hub.status()->activity;
   out["time_s"] = static_cast<double>(hub.frame()->tick) * kTickSeconds;
+  studio::SeenWorld seen{hub.status()->step, hub.status()->enabled_agents, {}, {}, {}};
+  motion.tell(seen);
   PreviewJson still = PreviewJson::array();
   for (const studio::StillBody& body : studio::still_bodies(world, seen)) {
     PreviewJson reasons = PreviewJson::array();
@@ -53,15 +49,6 @@ void add_world(const KioskHub& hub, const state::WorldDescription& world, const 
     still.push_back({{"def", body.def}, {"reasons", std::move(reasons)}});
   }
   out["still"] = std::move(still);
-}
-
-/// Where its hands have something to do, for the place of a device.
-PreviewJson workable_json(const state::WorldDescription& world, const studio::SeenWorld& seen) {
-  PreviewJson all = PreviewJson::array();
-  for (const studio::WorkableBody& body : studio::workable_bodies(world, seen))
-    all.push_back(
-        {{"def", body.def}, {"least", vector_json(body.box_W.min())}, {"greatest", vector_json(body.box_W.max())}});
-  return all;
 }
 
 bool shows_world(const KioskHub* hub) {
@@ -391,12 +378,8 @@ std::string PreviewDesk::look(const std::string& draft, TimePoint now) {
     out["address"] = fmt::format("/kiosk/{}?token={}", preview.kiosk, preview.token);
     out["socket"] = fmt::format("/ws/kiosk/{}?token={}", preview.kiosk, preview.token);
     if (shows_world(preview.hub.get())) {
-      const state::WorldDescription& world = *preview.draft.world;
-      studio::SeenWorld seen{preview.hub->status()->step, preview.hub->status()->enabled_agents, {}, {}, {}};
-      preview.motion.tell(seen);
-      add_world(*preview.hub, world, seen, out);
+      add_world(*preview.hub, *preview.draft.world, preview.motion, out);
       out["devices"] = devices_of(preview, now);
-      if (!out["devices"].empty()) out["workable"] = workable_json(world, seen);
     }
   }
   return out.dump(-1, ' ', false, PreviewJson::error_handler_t::replace);

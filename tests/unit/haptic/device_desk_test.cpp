@@ -35,9 +35,10 @@ class DeviceDeskTest : public ::testing::Test {
   /// Looks until the condition holds. False: not within some seconds.
   bool looks_until(const std::function<bool()>& holds) {
     SystemClock clock;
-    for (const TimePoint end = now() + 20s; now() < end; clock.sleep_until(now() + 20ms)) {
+    for (const TimePoint end = now() + 20s; now() < end;) {
       desk_->look(now());
       if (holds()) return true;
+      clock.sleep_until(now() + 20ms);  // sleeps: the pace of the looks
     }
     return false;
   }

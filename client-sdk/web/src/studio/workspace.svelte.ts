@@ -7,6 +7,7 @@ import { jointsOfMoved, type JointsOfMoved } from './picture/left_behind';
 import { Draft, type DraftState, type Outcome } from './draft';
 import type { JointPlan } from './picture/joint';
 import { orderCommands, siblingsOf } from './order';
+import type { Box } from './preview/devices';
 import { PreviewDesk } from './preview/preview_desk.svelte';
 import { draftRequests, studio } from './requests';
 import type { Schema } from './inspector/schema';
@@ -33,8 +34,10 @@ export class Workspace {
   /** Bodies that are selected besides. */
   readonly also = new SvelteSet<string>();
   part = $state<PartName>('scene');
+  /** Where a body of the draft is, as it begins; the picture knows. */
+  boxOf: (def: string) => Box | null = () => null;
   /** What stands beside the preview. */
-  beside = $state<'watch' | 'visits' | 'properties'>('watch');
+  beside = $state<'watch' | 'visits' | 'devices' | 'properties'>('watch');
   /** By field: what was typed and is not in the draft. It survives everything but leaving the page. */
   typed = $state<Record<string, string>>({});
   /** The field that gets the focus once it is there. */

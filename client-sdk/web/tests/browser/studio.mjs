@@ -598,6 +598,39 @@ const parts = {
     assert.equal(await page.evaluate(() => localStorage.getItem('mechane.kiosk')), null);
     assert.equal(gateway.sockets.size, 0);
   },
+  async 'a device is tested, and its hand is put where there is something to do'() {
+    const asked = () => gateway.asked.filter((a) => a.path.endsWith('/preview/device')).map((a) => a.body);
+    await go('Try it');
+    await page.click('.inspector nav button:has-text("Devices")');
+    await page.click('[data-tour="start"]');
+    await page.waitForSelector('.devices:has-text("up to 3.3 N, 0.88 N for long")');
+    await page.click('.devices button:text-is("Test it")');
+    await page.waitForSelector('.devices:has-text("In the test: 0.62 N at most, 0.10 mJ given out")');
+    await page.click('.devices button:text-is("End the test")');
+    await page.waitForSelector('.devices button:text-is("Test it")');
+    assert.deepEqual(asked(), [{ user: 0, action: 'test' }, { user: 0, action: 'end-test' }]);
+    await page.waitForSelector('.place .missing:text-is("Out of reach: DRUM")');
+    await page.click('.place button:text-is("Fill in")');
+    await page.waitForSelector('.place .missing', { state: 'detached' });
+    await accessible('device');
+    const place = async () => (await page.textContent('.place pre')).match(/--center (\S+) (\S+) (\S+) --turn (\S+) --scale (\S+)/).slice(1).map(Number);
+    const filled = await place();
+    // Seen from above, to the right is x.
+    const reach = page.locator('.place polygon').first();
+    await reach.scrollIntoViewIfNeeded();
+    const { x, y, width, height } = await reach.boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 20, y + height / 2, { steps: 4 });
+    await page.mouse.up();
+    const dragged = await place();
+    assert.ok(dragged[0] > filled[0] + 0.02 && dragged[4] > 1, `${filled} to ${dragged}`);
+    assert.deepEqual(dragged.slice(1), filled.slice(1));
+    await page.click('.place button:text-is("Put it there")');
+    await page.waitForSelector('.devices [role=status]:text-is("Done.")');
+    const [center_m, turn_rad, scale] = [dragged.slice(0, 3), dragged[3], dragged[4]];
+    assert.deepEqual(asked().at(-1), { user: 0, action: 'place', place: { center_m, turn_rad, scale } });
+  },
   async 'the draft is exported, and another exhibit is added, with what has another name here'() {
     await go('Versions');
     const file = page.waitForEvent('download');

@@ -88,6 +88,22 @@ function around(from, path) {
 
 class Refused extends Error {}
 
+/** A stylus at the trial's kiosk, as the gateway tells of it. Its program does at once what it is asked for. */
+class Stylus {
+  told = { user: 0, name: 'Phantom Omni', state: 'ready', kind: 'one-point', side: 'right', request: 'none', details: {
+    wanted_hz: 1000, peak_force_n: 3.3, continuous_force_n: 0.88, peak_torque_nm: 0, peak_finger_force_n: 0, max_stiffness_n_per_m: 1000,
+    rate_hz: 998, late_us: 240, hand_m: [0.1, 0.7, 0.2], force_n: 0, testing: false, test_force_n: 0, test_energy_j: 0, temperature: 0.25,
+    place: { center_m: [0, 0.72, 0.19], turn_rad: 0, scale: 1 }, workspace_m: { least: [-0.08, -0.06, -0.035], greatest: [0.08, 0.06, 0.035] } } };
+
+  take({ action, place }) {
+    const { told } = this;
+    told.request = action === 'calibrate' ? 'refused' : 'done';
+    if (action === 'test') Object.assign(told.details, { testing: true, test_force_n: 0.62, test_energy_j: 0.0001 });
+    if (action === 'end-test') told.details.testing = false;
+    if (action === 'place') told.details.place = place;
+  }
+}
+
 /** A run of the draft: its stone rises once `lift` was called, and the next step comes where the draft's trigger says so. */
 class Trial {
   tick = 0;
@@ -95,6 +111,7 @@ class Trial {
   step = 'lift';
   at = performance.now();
   liftedAt = Infinity;
+  stylus = new Stylus();
 
   constructor(revision, begins, wanted, stepped) {
     Object.assign(this, { revision, begins, wanted, stepped, looks: 0 });
@@ -133,6 +150,7 @@ class Trial {
       path: 'activities/use/steps/lift/trigger:1/value' };
     return { state: 'running', revision: this.revision, kept: this.kept, begins: this.begins, pace: this.pace,
       kiosk: 'studio-my-crane', activity: 'use', step: this.step,
+      devices: [this.stylus.told],
       visit: this.visit, address: '/kiosk/studio-my-crane?token=t', socket: '/ws/kiosk/studio-my-crane?token=t', time_s: this.tick / 1000,
       still: [{ def: 'FRAME', reasons: [fixed] }, ...(this.step === 'lift' ? [{ def: 'LOAD', reasons: [off] }] : [])] };
   }
@@ -187,6 +205,8 @@ export class StudioStandIn extends StandIn {
       else this.trial.revision = body.revision;
     } else if (verb === '/pace') {
       this.trial.go(body);
+    } else if (verb === '/device') {
+      this.trial.stylus.take(body);
     } else if (verb === '/visit') {
       this.trial.visit = { name: body.visit, state: 'incomplete', reason: 'in step lift', moves: [
         { name: 'reach DRUM', ok: true, reason: '' }, { name: 'turn AXLE', ok: false, reason: 'it lost its handle' }] };

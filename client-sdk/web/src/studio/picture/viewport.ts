@@ -11,6 +11,7 @@ import { Picture } from '../../scene/picture';
 import type { Frame } from '../../wire/frame';
 import { kNothingKnown, type KioskState, type PoseArray, type View } from '../../wire/messages';
 import type { Vector } from '../commands';
+import type { Box } from '../preview/devices';
 import type { JointMark } from './joint';
 import { jointShape } from './joint_shape';
 import { Ruler, type Measured } from './ruler';
@@ -205,6 +206,12 @@ export class Viewport {
     const placed = this.placed(name);
     return placed && placed.model.box.getCenter(new Vector3()).applyMatrix4(placed.group.matrix).toArray();
   }
+  /** Around it in W; null: the picture does not have it. */
+  boxOf(name: string): Box | null {
+    const placed = this.placed(name);
+    const box = placed?.model.box.clone().applyMatrix4(placed.group.matrix);
+    return box ? { least: box.min.toArray(), greatest: box.max.toArray() } : null;
+  }
   /** True: the key was for the view. */
   key(event: KeyboardEvent): boolean {
     const across = { ArrowLeft: -1, ArrowRight: 1 }[event.key] ?? 0;
@@ -367,7 +374,7 @@ export class Viewport {
       this.outlines.set(name, { around: placed, group });
       group.matrixAutoUpdate = false;
       for (const mesh of placed.group.children) if (mesh instanceof Mesh) group.add(new Mesh(mesh.geometry, this.rim));
-      group.add(this.boxOf(placed.model.box));
+      group.add(this.edgesOf(placed.model.box));
       this.picture.world.scene.add(group);
     }
     group.matrix.copy(placed.group.matrix);
@@ -397,7 +404,7 @@ export class Viewport {
     else if (!movable && this.gizmo.object) this.gizmo.detach();
     if (movable) this.gizmo.setMode(this.tool!);
   }
-  private boxOf(box: Box3): LineSegments {
+  private edgesOf(box: Box3): LineSegments {
     const [size, middle] = [box.getSize(new Vector3()), box.getCenter(new Vector3())];
     const edges = new EdgesGeometry(new BoxGeometry(size.x, size.y, size.z).applyMatrix4(new Matrix4().makeTranslation(middle)));
     const lines = new LineSegments(edges, this.lines);

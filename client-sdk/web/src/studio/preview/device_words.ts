@@ -3,9 +3,12 @@ import type { Language } from '../words';
 import type { kAnswers } from './devices';
 
 export interface DeviceWords {
+  tab: string;
   title: string;
   device: (n: number) => string;
   states: Record<string, string>;
+  none: string;
+  resting: string;
   comes: string;
   limits: (peak: string, long: string) => string;
   fingers: (most: string) => string;
@@ -43,10 +46,13 @@ export interface DeviceWords {
 }
 
 const kEnglish: DeviceWords = {
+  tab: 'Devices',
   title: 'Haptic devices',
   device: (n) => `device ${n}`,
   states: { preparing: 'is being prepared', ready: 'ready', 'let-go': 'nobody holds it', 'not-ready': 'not held, or switched off',
     uncalibrated: 'to be calibrated', warm: 'warm, its force is lowered', hot: 'too hot', lost: 'gone or faulty' },
+  none: 'There is none yet.',
+  resting: 'While the draft runs, haptic devices that are at it are listed here, with their tests and the place of their hands.',
   comes: 'To feel what runs here, start this on the machine of a device:',
   limits: (peak, long) => `up to ${peak} N, ${long} N for long`,
   fingers: (most) => `up to ${most} N on a finger`,
@@ -84,10 +90,13 @@ const kEnglish: DeviceWords = {
 };
 
 const kGreek: DeviceWords = {
+  tab: 'Συσκευές',
   title: 'Απτικές συσκευές',
   device: (n) => `συσκευή ${n}`,
   states: { preparing: 'ετοιμάζεται', ready: 'έτοιμη', 'let-go': 'δεν την κρατά κανείς', 'not-ready': 'δεν την κρατά κανείς ή είναι κλειστή',
     uncalibrated: 'χρειάζεται βαθμονόμηση', warm: 'ζεστή, με μειωμένη δύναμη', hot: 'πολύ ζεστή', lost: 'χάθηκε ή έχει βλάβη' },
+  none: 'Δεν υπάρχει ακόμη καμία.',
+  resting: 'Όσο τρέχει το σχέδιο, εδώ φαίνονται οι απτικές συσκευές του, με τις δοκιμές τους και τη θέση των χεριών τους.',
   comes: 'Για να νιώσετε ό,τι τρέχει εδώ, ξεκινήστε στο μηχάνημα μιας συσκευής:',
   limits: (peak, long) => `έως ${peak} N, για πολλή ώρα ${long} N`,
   fingers: (most) => `έως ${most} N σε κάθε δάχτυλο`,

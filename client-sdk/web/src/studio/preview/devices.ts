@@ -38,7 +38,7 @@ export interface TrialDevice extends DeviceInfo {
   request: (typeof kAnswers)[number];
   refusal: string;
 }
-/** A body that a hand can work, and the box around it in the world. */
+/** A body that a hand can work, and the box around it in the world, where it begins. */
 export interface Workable extends Box {
   def: string;
 }
@@ -79,7 +79,6 @@ export function trialDeviceOf(v: unknown): TrialDevice {
   return { ...deviceOf(v), details: d.details ? detailsOf(d.details) : null, request: kAnswers.find((one) => one === d.request) ?? 'none',
     refusal: text(d.refusal) };
 }
-export const workableOf = (v: unknown): Workable => ({ def: text(fields(v).def), ...boxOf(v) });
 
 /** About the world's y axis, anticlockwise from above. */
 const turned = ([x, y, z]: Vector, by_rad: number): Vector => {

@@ -2,7 +2,7 @@
 import { fields, list, number, text } from '../../console/api';
 import type { Texts } from '../../wire/messages';
 import { textsOf } from '../view';
-import { trialDeviceOf, workableOf, type TrialDevice, type Workable } from './devices';
+import { trialDeviceOf, type TrialDevice } from './devices';
 
 export type PreviewState = 'none' | 'starting' | 'running' | 'failed';
 export interface StillReason {
@@ -54,8 +54,6 @@ export interface Preview {
   still: Still[];
   /** Of its kiosk: haptic ones, and what starts another one there. */
   devices: TrialDevice[];
-  /** Where a hand has something to do; told while there is a device. */
-  workable: Workable[];
   kiosk: string;
   domain: number;
   visit: Played;
@@ -104,7 +102,6 @@ export function previewOf(v: unknown): Preview {
     step: text(p.step),
     still: list(p.still).map(stillOf),
     devices: list(p.devices).map(trialDeviceOf),
-    workable: list(p.workable).map(workableOf),
     kiosk: text(p.kiosk),
     domain: number(p.domain),
     visit: playedOf(p.visit),

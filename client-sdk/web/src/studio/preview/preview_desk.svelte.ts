@@ -163,6 +163,13 @@ export class PreviewDesk {
     return this.quantities.map((q) => q.name).filter((name) => this.chosen[name] ?? usual.has(name));
   }
 
+  /** The bodies of what runs that a hand can take, turn, slide or place. */
+  handled(): string[] {
+    const { presentation, objects } = this.world;
+    const worked = new Set(presentation?.affordances.map((one) => one.object));
+    return objects.filter((one) => worked.has(one.index)).map((one) => one.name);
+  }
+
   private noteSeen = (): void => {
     clearTimeout(this.unseen);
     if (document.hidden) this.unseen = setTimeout(() => this.sleep(), kUnseen_ms);
