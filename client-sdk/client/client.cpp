@@ -98,7 +98,10 @@ class ClientImpl final : public Client {
   void tell_device(const DeviceReport& report) override;
   bool tell_details(const DeviceDetails& details) override { return device_link_ && device_link_->tell(details); }
   [[nodiscard]] std::vector<DeviceRequest> take_device_requests() override {
-    return device_link_ ? device_link_->take_requests() : std::vector<DeviceRequest>();
+    std::vector<DeviceRequest> requests;
+    if (device_link_) requests = device_link_->take_requests();
+    if (state() == LinkState::refused) requests.clear();  // they are for the program that has this hand
+    return requests;
   }
   [[nodiscard]] std::vector<DeviceReport> devices() override;
   [[nodiscard]] std::vector<DeviceDetails> device_details() override;
@@ -441,7 +444,7 @@ void ClientImpl::tell_device(const DeviceReport& report) {
   news_.signal();
 }
 
-/// By user. A second program of a hand waits until it is free: what it has is not what the visitor touches.
+/// By user. A second program of a hand waits until that is free: its device is not what the visitor touches.
 std::vector<KioskDevice> ClientImpl::heard_devices() {
   std::vector<KioskDevice> all;
   if (!watch_) return all;

@@ -83,12 +83,6 @@ class DisplayWatchImpl final : public DisplayWatch {
     return requests_.write(wire) ? wire.id : 0;
   }
 
-  [[nodiscard]] Expected<std::uint64_t> request(const std::string& kiosk, const DeviceRequest& request) override {
-    if (auto ok = proto::check_name(kiosk, "kiosk"); !ok) return tl::unexpected(ok.error());
-    if (auto ok = check(request); !ok) return tl::unexpected(ok.error());
-    return devices_->ask(kiosk, request);
-  }
-
  private:
   using Key = std::tuple<std::string, std::string, std::uint64_t>;
   proto::Participant participant_;

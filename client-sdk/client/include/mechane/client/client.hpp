@@ -119,7 +119,8 @@ class Client {
   [[nodiscard]] virtual std::vector<DeviceReport> devices() { return {}; }
   /// What the programs of these devices tell staff, by user.
   [[nodiscard]] virtual std::vector<DeviceDetails> device_details() { return {}; }
-  /// As DisplayWatch::request(), to a hand of this kiosk.
+  /// Asks the program of a hand of this kiosk. Returns the id with which it answers in its details; 0 where the request could not be sent.
+  /// Errors: a hand that no kiosk has, a place that check() refuses.
   [[nodiscard]] virtual Expected<std::uint64_t> ask_device(const DeviceRequest& /*request*/) { return 0; }
 
   /// SceneFrames that were received and that were lost, in this and former worlds.

@@ -169,9 +169,6 @@ class DisplayWatch {
   /// of its range.
   [[nodiscard]] virtual Expected<std::uint64_t> request(const std::string& kiosk, const std::string& display,
                                                         const DisplayRequest& request) = 0;
-  /// Sends a request to the program of a hand. Returns the id with which it answers in its DeviceDetails; 0 where the
-  /// request could not be sent. Errors: a bad name, a hand that no kiosk has, a place that check() refuses.
-  [[nodiscard]] virtual Expected<std::uint64_t> request(const std::string& kiosk, const DeviceRequest& request) = 0;
 };
 
 }  // namespace mechane::client
