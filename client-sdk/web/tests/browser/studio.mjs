@@ -313,6 +313,12 @@ const parts = {
     await page.keyboard.press('Home');
     for (const key of ['ArrowDown', 'ArrowDown', 'Enter']) await page.keyboard.press(key);
     const before = await until(page, 'the first body', (s) => s.selection === 'node:FRAME');
+    // Keys stay where they are while the page looks for others' edits.
+    await page.keyboard.press('ArrowDown');
+    await page.waitForResponse((r) => r.url().endsWith('/api/studio/drafts/my-crane'));
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+    await page.keyboard.press('Enter');
+    await until(page, 'the next one', (s) => s.selection === 'node:WALL');
     await page.focus('[role=application]');
     await page.keyboard.press('ArrowLeft');
     await until(page, 'the view has turned', (s) => Math.abs(s.camera[0] - before.camera[0]) > 0.05);
