@@ -393,6 +393,7 @@ Json to_json(const proto::ExhibitRequest& s) {
   j.update({{"verb", s.verb}, {"exhibit", text(s.exhibit)}, {"now", s.now}});
   return j;
 }
+
 Json place(const proto::WireDevicePlace& place) {
   return {{"p_WD", list(place.p_WD)}, {"turn_rad", place.turn_rad}, {"scale", place.scale}};
 }

@@ -37,17 +37,8 @@ void DeviceLink::take(proto::ReaderView<proto::DeviceRequest> view) {
   view.take_each([this](const proto::DeviceRequest& wire, const proto::SampleInfo& info) {
     DeviceRequest request;
     if (!info.valid || proto::text_of(wire.kiosk) != kiosk_ || wire.user != user_ || !parse(wire, request)) return;
-    const std::lock_guard lock(mutex_);
-    requests_.push_back(request);
-    if (requests_.size() > kRequests) requests_.pop_front();
+    requests_.push(request);
   });
-}
-
-std::vector<DeviceRequest> DeviceLink::take_requests() {
-  const std::lock_guard lock(mutex_);
-  std::vector<DeviceRequest> all(requests_.begin(), requests_.end());
-  requests_.clear();
-  return all;
 }
 
 }  // namespace mechane::client

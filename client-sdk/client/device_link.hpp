@@ -1,12 +1,11 @@
 // DeviceLink: a haptic program's endpoints beside its hand: tells staff of its device, and receives their requests.
 #pragma once
 
-#include <deque>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "client-sdk/client/request_queue.hpp"
 #include <mechane/client/devices.hpp>
 #include <mechane/proto/entity.hpp>
 
@@ -15,8 +14,6 @@ namespace mechane::client {
 /// tell() and take_requests() are called by one thread.
 class DeviceLink {
  public:
-  static constexpr std::size_t kRequests = 8;  ///< kept at most; the oldest are dropped
-
   [[nodiscard]] static Expected<std::unique_ptr<DeviceLink>> create(const proto::Participant& participant,
                                                                     const std::string& kiosk, std::uint32_t user,
                                                                     std::uint64_t session);
@@ -25,7 +22,7 @@ class DeviceLink {
 
   /// False where it could not be sent.
   bool tell(const DeviceDetails& details);
-  [[nodiscard]] std::vector<DeviceRequest> take_requests();
+  [[nodiscard]] std::vector<DeviceRequest> take_requests() { return requests_.take(); }
 
  private:
   DeviceLink(std::string kiosk, std::uint32_t user, std::uint64_t session)
@@ -36,8 +33,7 @@ class DeviceLink {
   const std::uint32_t user_;
   const std::uint64_t session_;
   std::uint64_t sequence_ = 0;
-  std::mutex mutex_;  // for what follows
-  std::deque<DeviceRequest> requests_;
+  RequestQueue<DeviceRequest, 8> requests_;
   proto::Writer<proto::DeviceStatus> statuses_;
   proto::Reader<proto::DeviceRequest> reader_;  // last, so that its listener ends before the rest is destroyed
 };

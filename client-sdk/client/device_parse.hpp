@@ -11,7 +11,7 @@ void write(const DeviceDetails& details, proto::DeviceStatus& wire);
 void write(const DevicePlace& place, proto::WireDevicePlace& wire);
 
 /// False, with `out` in an unspecified state, where the sample is of another protocol version, the kiosk has no valid name, the user does
-/// not exist, a number is not finite, negative or over its limit, or the place is none that check() takes.
+/// not exist, a number is not finite, negative or over its limit, or check() refuses the place.
 [[nodiscard]] bool parse(const proto::DeviceStatus& wire, DeviceDetails& out);
 /// Also checked: the id is not 0, and the action exists.
 [[nodiscard]] bool parse(const proto::DeviceRequest& wire, DeviceRequest& out);

@@ -104,9 +104,7 @@ void DisplayLink::take(proto::ReaderView<proto::DisplayRequest> view) {
     if (!info.valid || !is_meant(proto::text_of(wire.kiosk), proto::text_of(wire.display))) return;
     DisplayRequest request;
     if (!parse(wire, request)) return;
-    const std::lock_guard lock(mutex_);
-    requests_.push_back(std::move(request));
-    if (requests_.size() > kRequests) requests_.pop_front();
+    requests_.push(std::move(request));
   });
 }
 
@@ -124,13 +122,6 @@ void DisplayLink::take(proto::ReaderView<proto::ViewerHead> view) {
 std::optional<ViewerHead> DisplayLink::viewer_head() {
   const std::lock_guard lock(mutex_);
   return head_;
-}
-
-std::vector<DisplayRequest> DisplayLink::take_requests() {
-  const std::lock_guard lock(mutex_);
-  std::vector<DisplayRequest> all(requests_.begin(), requests_.end());
-  requests_.clear();
-  return all;
 }
 
 }  // namespace mechane::client

@@ -2,13 +2,13 @@
 // the visitor's head.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "client-sdk/client/request_queue.hpp"
 #include <mechane/client/displays.hpp>
 #include <mechane/client/head.hpp>
 #include <mechane/proto/entity.hpp>
@@ -18,8 +18,6 @@ namespace mechane::client {
 /// report() and take_requests() are called by one thread.
 class DisplayLink {
  public:
-  static constexpr std::size_t kRequests = 32;  ///< kept at most; the oldest are dropped
-
   [[nodiscard]] static Expected<std::unique_ptr<DisplayLink>> create(const proto::Participant& participant,
                                                                      const std::string& kiosk,
                                                                      const std::string& display, std::uint64_t session);
@@ -28,7 +26,7 @@ class DisplayLink {
 
   /// The link fills in kiosk, display and session. False where the status could not be sent.
   bool report(const DisplayStatus& status);
-  [[nodiscard]] std::vector<DisplayRequest> take_requests();
+  [[nodiscard]] std::vector<DisplayRequest> take_requests() { return requests_.take(); }
   /// The newest head position that was sent to this display.
   [[nodiscard]] std::optional<ViewerHead> viewer_head();
 
@@ -43,8 +41,8 @@ class DisplayLink {
   std::string display_;
   std::uint64_t session_;
   std::uint64_t sequence_ = 0;
+  RequestQueue<DisplayRequest, 32> requests_;
   std::mutex mutex_;  // for what follows
-  std::deque<DisplayRequest> requests_;
   std::optional<ViewerHead> head_;
   proto::Writer<proto::DisplayStatus> statuses_;
   // Declared last, so that their listeners end before the rest is destroyed.

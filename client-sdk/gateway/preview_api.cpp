@@ -130,6 +130,7 @@ Expected<std::string> parse_visit_order(const std::string& body) {
 
 Expected<client::DeviceRequest> parse_device_order(const std::string& body) {
   constexpr std::array<std::string_view, 4> kDeviceActions{"place", "calibrate", "test", "end-test"};
+  static_assert(kDeviceActions.size() == static_cast<std::size_t>(client::DeviceAction::end_test) + 1);
   const auto wrong = [] {
     return fail(
         ErrorCode::invalid_value, "this asks for nothing that a device does", {},

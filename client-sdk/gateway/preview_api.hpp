@@ -8,8 +8,8 @@
 
 namespace mechane::gateway {
 
-// What the studio's API does for addresses that end so: "preview", "preview/pace", "preview/visit", "preview/device", "preview/stop". The caller checks
-// roles and writes the audit log. On the loop's thread, as the site.
+// What the studio's API does for addresses that end so: "preview", "preview/pace", "preview/visit", "preview/device",
+// "preview/stop". The caller checks roles and writes the audit log. On the loop's thread, as the site.
 
 [[nodiscard]] bool is_preview_verb(const std::string& verb);
 /// Whether it asks for nothing that is worth a line of the audit log.

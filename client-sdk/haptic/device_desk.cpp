@@ -21,8 +21,6 @@ void note_hand(LoopTurns& turns, client::DeviceDetails& told) {
   told.temperature = hand.temperature;
 }
 
-}  // namespace
-
 client::DeviceLimits limits_of(const mechane_device_info& info) {
   return {info.rate_hz,
           info.peak_force_n,
@@ -33,6 +31,8 @@ client::DeviceLimits limits_of(const mechane_device_info& info) {
           Vec3(info.workspace_min_m[0], info.workspace_min_m[1], info.workspace_min_m[2]),
           Vec3(info.workspace_max_m[0], info.workspace_max_m[1], info.workspace_max_m[2])};
 }
+
+}  // namespace
 
 DeviceDesk::DeviceDesk(client::Client& client, DriverProcess& device, HapticLoop& loop, LoopTurns& turns,
                        const DeviceThread& thread, client::DeviceDetails& told, TimePoint now)
@@ -47,7 +47,7 @@ client::DeviceState DeviceDesk::state() const {
 void DeviceDesk::look(TimePoint now) {
   for (const client::DeviceRequest& request : client_.take_device_requests())
     take(request, now);
-  if (turns_.tests() && now >= test_ends_) (void)turns_.end_test();
+  if (now >= test_ends_) end_test();
   note(now);
   if (now < next_) return;
   next_ = turns_.tests() ? now : now + kTellEvery;
@@ -74,39 +74,44 @@ Expected<void> DeviceDesk::act(const client::DeviceRequest& request, TimePoint n
     case DeviceAction::test:
       return start_test(now);
     case DeviceAction::end_test:
-      if (turns_.tests()) (void)turns_.end_test();
+      end_test();
       return {};
   }
   return {};
+}
+
+Expected<void> DeviceDesk::pause(const char* place) {
+  if (turns_.pause()) return {};
+  turns_.resume();
+  return fail(ErrorCode::timed_out, "its force does not go to zero", place, "stop the program, and look at the device");
+}
+
+void DeviceDesk::end_test() {
+  if (!turns_.tests()) return;
+  (void)turns_.pause();
+  turns_.resume();
 }
 
 Expected<void> DeviceDesk::put(const client::DevicePlace& place) {
   if (turns_.tests()) return fail(ErrorCode::busy, "the device is being tested", "place", "end the test first");
   if (device_.condition() == DeviceCondition::clutched)
     return fail(ErrorCode::conflict, "its clutch is down", "place", "let go of the button first");
-  const bool rests = turns_.pause();
-  // The loop's thread leaves this as it is until it is resumed.
-  const bool holding = rests && loop_.holding();
-  if (rests && !holding) {
+  if (auto paused = pause("place"); !paused) return paused;
+  const bool holding = loop_.holding();  // the loop's thread leaves it as it is until it is resumed
+  if (!holding) {
     device_.put(place);
     told_.place = place;
   }
   turns_.resume();
   if (holding) return fail(ErrorCode::conflict, "the hand holds something", "place", "let go of it first");
-  if (rests) return {};
-  return fail(ErrorCode::timed_out, "its force does not go to zero", "place",
-              "stop the program, and look at the device");
+  return {};
 }
 
 Expected<void> DeviceDesk::start_test(TimePoint now) {
   if (!turns_.tests()) {
     auto test = WallTest::make(device_, device_.info().max_stiffness_n_per_m);
     if (!test) return tl::unexpected(test.error());
-    if (!turns_.pause()) {
-      turns_.resume();
-      return fail(ErrorCode::timed_out, "its force does not go to zero", "test",
-                  "stop the program, and look at the device");
-    }
+    if (auto paused = pause("test"); !paused) return paused;
     turns_.start(std::move(*test));
   }
   test_ends_ = now + kTestLasts;

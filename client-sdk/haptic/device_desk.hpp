@@ -9,8 +9,6 @@
 
 namespace mechane::haptic {
 
-[[nodiscard]] client::DeviceLimits limits_of(const mechane_device_info& info);
-
 /// The main thread. It ends before what it was given.
 class DeviceDesk {
  public:
@@ -33,6 +31,9 @@ class DeviceDesk {
   [[nodiscard]] Expected<void> act(const client::DeviceRequest& request, TimePoint now);
   [[nodiscard]] Expected<void> put(const client::DevicePlace& place);
   [[nodiscard]] Expected<void> start_test(TimePoint now);
+  /// Where the force does not go to zero, the loop goes on.
+  [[nodiscard]] Expected<void> pause(const char* place);
+  void end_test();
   void note(TimePoint now);
 
   client::Client& client_;

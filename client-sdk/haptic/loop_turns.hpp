@@ -51,8 +51,12 @@ class LoopTurns {
     }
   }
 
-  /// Ramps the force down, so that the hand does not feel the loop stop. True: it is zero, and stays so until resume() or start().
-  bool pause() { return rests_in(Mode::pause); }
+  /// Ramps the force of the world, or of a test, down, so that the hand does not feel it stop. True: it is zero, and stays so until
+  /// resume() or start(). False: it does not go to zero within a second, which is for the driver's own process to end.
+  bool pause() {
+    if (tests()) (void)rests_in(Mode::end_test);
+    return rests_in(Mode::pause);
+  }
   /// After pause(). The world comes back once the hand touches nothing.
   void resume() { mode_.store(Mode::world, std::memory_order_release); }
   /// After pause().
@@ -60,12 +64,6 @@ class LoopTurns {
     MECHANE_ASSERT(mode_ == Mode::pause);  // else the loop's thread may be using the former test
     test_.emplace(std::move(test));
     mode_.store(Mode::test, std::memory_order_release);
-  }
-  /// Ends the test, and resumes. False: its force does not go to zero, which is for the driver's own process to end.
-  bool end_test() {
-    const bool ended = rests_in(Mode::end_test);
-    resume();
-    return ended;
   }
   [[nodiscard]] bool tests() const { return mode_ == Mode::test; }
   /// Of the test that runs, or of the last one.

@@ -454,7 +454,7 @@ std::optional<int> run_device(const Arguments& a, Link& link, haptic::HandRecord
     again = there && (desk.fits() || calibrates_again(a, motion));
     return !failed && !again;
   });
-  if (!failed) (void)(turns.tests() ? turns.end_test() : turns.pause());
+  if (!failed) (void)turns.pause();
   thread.stop();
   add(record, **loop);
   record.device = device.info().name;

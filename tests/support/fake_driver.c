@@ -57,8 +57,8 @@ static void read_pose(Device* d) {
   close(file);
 }
 
-/* "trace=FILE,fault=WORD,after=READS,until=FILE,sinks=FILE,pose=FILE,side=left,palm=METRES": absent until this file is there; goes down once
- * that one is, and without one after 0.7 s; a glove with the 20 angles of the third */
+/* "trace=FILE,fault=WORD,after=READS,until=FILE,sinks=FILE,pose=FILE,side=left,palm=METRES": absent until this file is there; goes down
+ * once that one is, and without one after 0.7 s; a glove with the 20 angles of the third */
 static int fake_open(const char* options, void** device, char* why, size_t why_size) {
   Device* made = calloc(1, sizeof(Device));
   char text[512];

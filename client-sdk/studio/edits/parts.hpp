@@ -28,7 +28,7 @@ struct Part {
   std::string_view body;    ///< its attributes, but for name and place
   std::string_view effort;  ///< effortScale of what a hand can take; empty: a hand cannot take it
   std::array<PartShape, 2> shapes;
-  int teeth = 0;  ///< of a spur gear, whose first shape is made of them; 0: it is none
+  int teeth = 0;  ///< of a spur gear; its first shape is drawn with so many. 0: the part is not a gear
 };
 
 [[nodiscard]] std::span<const Part> parts();

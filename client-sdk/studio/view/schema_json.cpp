@@ -175,7 +175,7 @@ SchemaJson parameter_json(const state::ParameterType& parameter) {
     out["default"] = parameter.default_value != 0;
   } else if ((parameter.kind == state::ParameterKind::number || parameter.kind == state::ParameterKind::numbers) &&
              parameter.default_value >= parameter.min && parameter.default_value <= parameter.max) {
-    // What lies beyond the ends is no usual value: one of several keys must be written.
+    // A default outside the limits says that the key is not written; it is not a value that authors can leave to the server.
     out["default"] = parameter.default_value;
   }
   return out;

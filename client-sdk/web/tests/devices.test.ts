@@ -1,6 +1,8 @@
 // Where a device's workspace lies in the world, and what the gateway tells of devices.
 import { describe, expect, it } from 'vitest';
-import { boxAround, canBePut, isWithinReach, optionsOf, placeAround, reachOf, trialDeviceOf, type Box } from '../src/studio/preview/devices';
+import {
+  boxAround, canBePut, isWithinReach, optionsOf, placeAround, reachOf, trialDeviceOf, type Box,
+} from '../src/studio/preview/devices';
 
 const kWorkspace: Box = { least: [-0.1, -0.05, -0.2], greatest: [0.1, 0.05, 0.2] };
 
@@ -30,7 +32,8 @@ describe('the place of a device', () => {
     expect(placeAround({ least: [0, 0, 0], greatest: [2, 4, 6] }, null, 0.5)).toEqual({ center_m: [1, 2, 3], turn_rad: 0.5, scale: 1 });
   });
   it('is said as programs take it', () => {
-    expect(optionsOf({ center_m: [0.1, 0.72, -1 / 3], turn_rad: Math.PI / 4, scale: 1.5 })).toBe('--center 0.1 0.72 -0.3333 --turn 45 --scale 1.5');
+    expect(optionsOf({ center_m: [0.1, 0.72, -1 / 3], turn_rad: Math.PI / 4, scale: 1.5 }))
+      .toBe('--center 0.1 0.72 -0.3333 --turn 45 --scale 1.5');
     expect(canBePut({ center_m: [NaN, 0, 0], turn_rad: 0, scale: 1 })).toBe(false);
     expect(canBePut({ center_m: [0, 0, 0], turn_rad: 0, scale: 0.5 })).toBe(false);
   });
@@ -38,7 +41,8 @@ describe('the place of a device', () => {
 
 describe('what is told of a device', () => {
   it('is read, whatever is missing', () => {
-    expect(trialDeviceOf({ user: 1, name: 'Touch' })).toMatchObject({ user: 1, name: 'Touch', details: null, request: 'none', refusal: '' });
+    expect(trialDeviceOf({ user: 1, name: 'Touch' }))
+      .toMatchObject({ user: 1, name: 'Touch', details: null, request: 'none', refusal: '' });
     const told = trialDeviceOf({ request: 'burnt', details: { temperature: 0.5, place: { center_m: [1] } } });
     expect(told.request).toBe('none');
     expect(told.details).toMatchObject({ temperature: 0.5, workspace_m: null, place: { center_m: [1, 0, 0], turn_rad: 0, scale: 1 } });

@@ -48,8 +48,9 @@ export const studio = (api: Api) => ({
   take: async (name: string, path: string): Promise<string> => text(fields(await api.json('POST', at(name, '/take'), { path })).taken),
   /** Edits a draft that is not open here, as it is now. */
   edit: async (name: string, commands: unknown[]): Promise<void> => {
+    if (commands.length === 0) return;
     const { revision } = viewOf(await api.json('GET', at(name)));
-    if (commands.length > 0) await api.json('POST', at(name, '/commands'), { revision, commands });
+    await api.json('POST', at(name, '/commands'), { revision, commands });
   },
   /** The draft with all that it uses, as one file. */
   exported: (name: string): Promise<Blob> => api.file(at(name, '/export')),

@@ -619,7 +619,8 @@ const parts = {
     await page.click('.place button:text-is("Fill in")');
     await page.waitForSelector('.place .missing', { state: 'detached' });
     await accessible('device');
-    const place = async () => (await page.textContent('.place pre')).match(/--center (\S+) (\S+) (\S+) --turn (\S+) --scale (\S+)/).slice(1).map(Number);
+    const kOptions = /--center (\S+) (\S+) (\S+) --turn (\S+) --scale (\S+)/;
+    const place = async () => (await page.textContent('.place pre')).match(kOptions).slice(1).map(Number);
     const filled = await place();
     // Seen from above, to the right is x.
     const reach = page.locator('.place polygon').first();

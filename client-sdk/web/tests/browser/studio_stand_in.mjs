@@ -93,7 +93,8 @@ class Stylus {
   told = { user: 0, name: 'Phantom Omni', state: 'ready', kind: 'one-point', side: 'right', request: 'none', details: {
     wanted_hz: 1000, peak_force_n: 3.3, continuous_force_n: 0.88, peak_torque_nm: 0, peak_finger_force_n: 0, max_stiffness_n_per_m: 1000,
     rate_hz: 998, late_us: 240, hand_m: [0.1, 0.7, 0.2], force_n: 0, testing: false, test_force_n: 0, test_energy_j: 0, temperature: 0.25,
-    place: { center_m: [0, 0.72, 0.19], turn_rad: 0, scale: 1 }, workspace_m: { least: [-0.08, -0.06, -0.035], greatest: [0.08, 0.06, 0.035] } } };
+    place: { center_m: [0, 0.72, 0.19], turn_rad: 0, scale: 1 },
+    workspace_m: { least: [-0.08, -0.06, -0.035], greatest: [0.08, 0.06, 0.035] } } };
 
   take({ action, place }) {
     const { told } = this;

@@ -35,7 +35,7 @@ struct DeviceDetails {
   std::uint32_t user = 0;  ///< filled in by the client
   DeviceLimits limits{};
   DevicePlace place{};
-  double rate_hz = 0;  ///< states of the device within the last second
+  double rate_hz = 0;  ///< states of the device a second, over the last two
   double late_us = 0;  ///< how much too late one of them came, at most
   Vec3 p_WH = Vec3::Zero();
   double force_n = 0;

@@ -1,11 +1,16 @@
 // The haptic devices of a trial: what the gateway tells of them, and where their workspaces lie in the world.
+import { Box3, Matrix4, Quaternion, Vector3 } from 'three';
 import { deviceOf, fields, list, number, text, type DeviceInfo } from '../../console/api';
+import { vector } from '../../scene/camera';
 import type { Vector } from '../commands';
 
-/** Where a device's workspace lies in the world. Its middle, metres; turned about y, anticlockwise from above; metres of the world for one. */
+/** Where a device's workspace lies in the world. */
 export interface DevicePlace {
+  /** Its middle. */
   center_m: Vector;
+  /** Of the device about the world's y axis, anticlockwise from above. */
   turn_rad: number;
+  /** Metres of the world for one of the device's. */
   scale: number;
 }
 export interface Box {
@@ -42,10 +47,10 @@ export interface TrialDevice extends DeviceInfo {
 export interface Workable extends Box {
   def: string;
 }
-export type DeviceOrder = { user: number; action: 'test' | 'end-test' | 'calibrate' } | { user: number; action: 'place'; place: DevicePlace };
+export type DeviceOrder = { user: number } & ({ action: 'test' | 'end-test' | 'calibrate' } | { action: 'place'; place: DevicePlace });
 
-export const kMostScale = 100;
-export const kFarthest_m = 100;
+const kMostScale = 100;
+const kFarthest_m = 100;
 
 const vectorOf = (v: unknown): Vector => {
   const [x, y, z] = list(v).map(number);
@@ -80,47 +85,42 @@ export function trialDeviceOf(v: unknown): TrialDevice {
     refusal: text(d.refusal) };
 }
 
-/** About the world's y axis, anticlockwise from above. */
-const turned = ([x, y, z]: Vector, by_rad: number): Vector => {
-  const [c, s] = [Math.cos(by_rad), Math.sin(by_rad)];
-  return [x * c + z * s, y, z * c - x * s];
-};
+const kUp = new Vector3(0, 1, 0);
+const box3 = ({ least, greatest }: Box): Box3 => new Box3(vector(least), vector(greatest));
+/** Of points in the device's frame, into the world. */
+const matrixOf = ({ center_m, turn_rad, scale }: DevicePlace): Matrix4 =>
+  new Matrix4().compose(vector(center_m), new Quaternion().setFromAxisAngle(kUp, turn_rad), new Vector3(scale, scale, scale));
 const corners = ({ least, greatest }: Box): Vector[] =>
   [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [0, 1, 2].map((axis) => ((i >> axis) & 1 ? greatest : least)[axis]!) as Vector);
 export function boxAround(points: Vector[]): Box | null {
-  if (points.length === 0) return null;
-  const along = (of: (...values: number[]) => number): Vector => [0, 1, 2].map((axis) => of(...points.map((p) => p[axis]!))) as Vector;
-  return { least: along(Math.min), greatest: along(Math.max) };
+  const { min, max } = new Box3().setFromPoints(points.map(vector));
+  return points.length > 0 ? { least: min.toArray(), greatest: max.toArray() } : null;
 }
 export const boxAroundAll = (boxes: Box[]): Box | null => boxAround(boxes.flatMap(({ least, greatest }) => [least, greatest]));
 
+const kNear_m = 1e-6;
 /** The corners of a device's workspace in the world. */
 export const reachOf = (workspace: Box, place: DevicePlace): Vector[] =>
-  corners(workspace).map((corner) => turned(corner, place.turn_rad).map((v, axis) => place.center_m[axis]! + place.scale * v) as Vector);
-export function isWithinReach({ least, greatest }: Box, workspace: Box, place: DevicePlace): boolean {
-  return corners({ least, greatest }).every((corner) => {
-    const p = turned(corner.map((v, axis) => v - place.center_m[axis]!) as Vector, -place.turn_rad);
-    return p.every((v, axis) => v >= place.scale * workspace.least[axis]! - kNear_m && v <= place.scale * workspace.greatest[axis]! + kNear_m);
-  });
-}
-const kNear_m = 1e-6;
+  corners(workspace).map((corner) => vector(corner).applyMatrix4(matrixOf(place)).toArray());
+export const isWithinReach = (box: Box, workspace: Box, place: DevicePlace): boolean =>
+  box3(workspace).expandByScalar(kNear_m / place.scale).containsBox(box3(box).applyMatrix4(matrixOf(place).invert()));
+
 /** What fills are rounded to. */
 const kGrid_m = 0.005;
 const kGridOfScale = 0.1;
 
-/** The place at which the workspace just holds a box, for a device that stands turned so. A known workspace's middle may lie beside its zero. */
+/** The place at which the workspace just holds a box, for a device that is turned so. The workspace's middle may lie beside its zero. */
 export function placeAround(target: Box, workspace: Box | null, turn_rad: number): DevicePlace {
-  const middle = (box: Box): Vector => box.least.map((v, axis) => (v + box.greatest[axis]!) / 2) as Vector;
-  const to = (v: number): number => Number((Math.round(v / kGrid_m) * kGrid_m).toFixed(3));
-  const at = middle(target);
-  if (!workspace) return { center_m: at.map(to) as Vector, turn_rad, scale: 1 };
-  const seen = boxAround(corners(target).map((corner) => turned(corner, -turn_rad)))!;
+  const toGrid = (p: Vector3): Vector => p.toArray().map((v) => Number((Math.round(v / kGrid_m) * kGrid_m).toFixed(3))) as Vector;
+  const at = box3(target).getCenter(new Vector3());
+  if (!workspace) return { center_m: toGrid(at), turn_rad, scale: 1 };
   // The corners may move by half a step of the grid.
-  const needed = [0, 1, 2].map((axis) => (seen.greatest[axis]! - seen.least[axis]! + 2 * kGrid_m) /
-    (workspace.greatest[axis]! - workspace.least[axis]! || 1));
-  const scale = Math.min(kMostScale, Math.max(1, Number((Math.ceil(Math.max(...needed) / kGridOfScale) * kGridOfScale).toFixed(1))));
-  const beside = turned(middle(workspace), turn_rad);
-  return { center_m: at.map((v, axis) => to(v - scale * beside[axis]!)) as Vector, turn_rad, scale };
+  const needs = box3(target).applyMatrix4(new Matrix4().makeRotationY(-turn_rad)).getSize(new Vector3()).addScalar(2 * kGrid_m).toArray();
+  const has = box3(workspace).getSize(new Vector3()).toArray();
+  const most = Math.max(...needs.map((v, axis) => v / (has[axis]! || 1)));
+  const scale = Math.min(kMostScale, Math.max(1, Number((Math.ceil(most / kGridOfScale) * kGridOfScale).toFixed(1))));
+  const beside = box3(workspace).getCenter(new Vector3()).applyMatrix4(matrixOf({ center_m: [0, 0, 0], turn_rad, scale }));
+  return { center_m: toGrid(at.sub(beside)), turn_rad, scale };
 }
 
 const kDegree = Math.PI / 180;
