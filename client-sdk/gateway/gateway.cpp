@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "client-sdk/gateway/browsers/hand_finders.hpp"
 #include "client-sdk/gateway/http/certificate.hpp"
 #include "client-sdk/gateway/sign_in/secrets.hpp"
 #include "client-sdk/gateway/site.hpp"
@@ -70,6 +71,10 @@ Expected<void> run_gateway(GatewayOptions options) {
   if (auto address = client::apply({"phone-address", options.phones}, unused); !address)
     return fail(ErrorCode::invalid_value, "'" + options.phones + "' is not an address for phones", "--phones",
                 "write https://HOST:PORT, without a path, in 63 characters at most");
+  if (!options.hand_model.empty()) {
+    if (auto model = check_hand_model(options.hand_model); !model) return model;
+    options.hand_model = std::filesystem::absolute(options.hand_model);
+  }
   if (auto ready = start_secrets(); !ready) return ready;
   if (auto made = make_state_folder(options.state); !made) return made;
   if (auto chosen = choose_tls(options); !chosen) return chosen;

@@ -43,6 +43,11 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--phones", o.phones,
                  "native displays show a code that leads phones to this gateway, by this address as phones reach it: "
                  "https://HOST:PORT");
+  app.add_option("--hand-model", o.hand_model,
+                 "MediaPipe's hand_landmarker.task: pages then find a visitor's hand in their camera's pictures");
+  app.add_option("--hand-program", o.web.hand_program,
+                 "the same by a program on the browser's own machine: its port there")
+      ->check(CLI::Range(1, 65535));
   app.add_option("--token-idle", a.token_idle_minutes, "minutes without a touch after which a kiosk's address ends")
       ->check(CLI::Range(0.05, 1440.0))
       ->capture_default_str();

@@ -78,8 +78,13 @@ GatewaySite::GatewaySite(const GatewayOptions& options, WebServer& server, Accou
       audit_(options.state),
       visits_(options.records, options.state, [&server](std::function<void()> job) { server.post(std::move(job)); }),
       studio_(options.scenarios, options.state, [&server](std::function<void()> job) { server.post(std::move(job)); }),
-      backstage_{options.domain,   slow_,    [&server](std::function<void()> job) { server.post(std::move(job)); },
-                 std::move(seats), content_, tokens_},
+      backstage_{options.domain,
+                 slow_,
+                 [&server](std::function<void()> job) { server.post(std::move(job)); },
+                 std::move(seats),
+                 content_,
+                 tokens_,
+                 {!options.hand_model.empty(), options.web.hand_program}},
       previews_({program_folder() / "mechane-server", program_folder() / "mechane-visitor", options.scenarios,
                  [this](const auto& file) { remove_preview(file); }},
                 backstage_) {}
@@ -120,6 +125,7 @@ void GatewaySite::answer_get(const HttpRequest& request, const Done& done) {
     return;
   }
   if (const auto hash = after(request.path, "/content/")) return serve_content(request, *hash, done);
+  if (request.path == "/hand-model") return serve_hand_model(request, done);
   if (const auto rest = after(request.path, "/exhibit/")) return serve_exhibit(request, *rest, done);
   if (request.path == "/app/sw.js")  // the app's service worker, for all pages
     return serve_file(request, {options_.app, "sw.js"}, [done](HttpAnswer answer) {
@@ -195,6 +201,14 @@ void GatewaySite::serve_exhibit(const HttpRequest& request, const std::string& r
   if (!folder || slash == rest.size())
     return done(refusal(404, "this gateway knows no such exhibit", "open the exhibit at a kiosk first"));
   serve_file(request, {*folder, rest.substr(slash + 1)}, done);
+}
+
+void GatewaySite::serve_hand_model(const HttpRequest& request, const Done& done) {
+  if (!may_read(request)) return done(no_way_in());
+  if (options_.hand_model.empty())
+    return done(refusal(404, "the camera hand is off: this gateway has no model of hands",
+                        "start the gateway with --hand-model FILE"));
+  serve_file(request, {options_.hand_model.parent_path(), options_.hand_model.filename().string()}, done);
 }
 
 void GatewaySite::answer_post(const HttpRequest& request, const Done& done) {

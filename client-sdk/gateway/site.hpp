@@ -88,6 +88,7 @@ class GatewaySite final : public Site {
   void answer_post(const HttpRequest& request, const Done& done);
   void serve_file(const HttpRequest& request, FileWanted wanted, const Done& done);
   void serve_content(const HttpRequest& request, const std::string& hash, const Done& done);
+  void serve_hand_model(const HttpRequest& request, const Done& done);
   void serve_exhibit(const HttpRequest& request, const std::string& rest, const Done& done);
   void sign_in(const HttpRequest& request, const Done& done);
   void signed_in(const HttpRequest& request, const std::string& user, Role role, const Done& done);

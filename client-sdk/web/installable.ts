@@ -33,6 +33,9 @@ const kManifest = {
   }))),
 };
 
+/** The finder of hands in a camera's pictures has 13 MB and needs the gateway's model: only a page that uses it fetches it. */
+export const isShell = ({ fileName }: { fileName: string }): boolean => !/(vision_wasm|finder_worker)/.test(fileName);
+
 export function installable(): Plugin {
   return {
     name: 'installable',
@@ -52,7 +55,7 @@ export function installable(): Plugin {
       }
       emit('manifest.webmanifest', JSON.stringify(kManifest, null, 2));
       // The page's name is not hashed: its content decides, too, whether this is another version.
-      const files = Object.values(bundle).filter((file) => !/\.(png|webmanifest)$/.test(file.fileName));
+      const files = Object.values(bundle).filter((file) => isShell(file) && !/\.(png|webmanifest)$/.test(file.fileName));
       const version = createHash('sha256');
       for (const file of files) version.update(file.fileName).update(file.type === 'chunk' ? file.code : file.source);
       const shell = files.map((file) => `/app/${file.fileName}`).sort();

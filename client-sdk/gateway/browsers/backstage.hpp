@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "client-sdk/gateway/browsers/hand_finders.hpp"
 #include "client-sdk/gateway/browsers/known_content.hpp"
 #include "client-sdk/gateway/sign_in/kiosk_tokens.hpp"
 #include "server/base/clock.hpp"
@@ -22,6 +23,7 @@ struct Backstage {
   std::shared_ptr<client::DisplaySeats> seats;
   KnownContent& content;
   KioskTokens& tokens;
+  HandFinders finders{};
 
   /// Ends something on the slow thread, before the seats' maker. Of what is shared: this owner's part.
   template <class Thing>

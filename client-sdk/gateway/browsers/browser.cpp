@@ -46,7 +46,7 @@ Browser::~Browser() {
 void Browser::opened(std::shared_ptr<Socket> socket) {
   socket_ = std::move(socket);
   opened_ = followed_ = time_now();
-  say("hello", hello_text(hub_->kiosk(), display_));
+  say("hello", hello_text(hub_->kiosk(), display_, hub_->backstage().finders));
   say("settings", settings_text(settings_));
   hub_->join(shared_from_this());
   sit_down();

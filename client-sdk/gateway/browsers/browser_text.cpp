@@ -118,13 +118,14 @@ TextJson gauges_json(const std::vector<picture::Readout>& readouts) {
 
 }  // namespace
 
-std::string hello_text(const std::string& kiosk, const std::string& display) {
+std::string hello_text(const std::string& kiosk, const std::string& display, const HandFinders& finders) {
   return written({{"type", "hello"},
                   {"protocol", kStreamVersion},
                   {"gateway", MECHANE_VERSION},
                   {"kiosk", kiosk},
                   {"display", display},
-                  {"mayPoint", true}});
+                  {"mayPoint", true},
+                  {"cameraHand", {{"model", finders.model}, {"program", finders.program}}}});
 }
 
 std::string link_text(client::LinkState state, const std::string& refusal) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "client-sdk/gateway/browsers/browser_hand.hpp"
+#include "client-sdk/gateway/browsers/hand_finders.hpp"
 #include "client-sdk/picture/overlay_content.hpp"
 #include <mechane/client/client.hpp>
 #include <mechane/client/displays.hpp>
@@ -14,7 +15,7 @@ namespace mechane::gateway {
 
 inline constexpr int kStreamVersion = 1;
 
-[[nodiscard]] std::string hello_text(const std::string& kiosk, const std::string& display);
+[[nodiscard]] std::string hello_text(const std::string& kiosk, const std::string& display, const HandFinders& finders);
 [[nodiscard]] std::string link_text(client::LinkState state, const std::string& refusal);
 [[nodiscard]] std::string world_text(const client::WorldStatus& status);
 [[nodiscard]] std::string scene_text(std::span<const client::SceneObject> objects);

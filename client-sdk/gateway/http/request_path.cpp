@@ -118,7 +118,7 @@ bool names_tag(std::string_view header, std::string_view tag) {
 
 std::optional<std::string_view> content_type_of(const std::filesystem::path& file) {
   using Known = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Known, 24> kKnown{{
+  static constexpr std::array<Known, 25> kKnown{{
       {".html", "text/html; charset=utf-8"},
       {".js", "text/javascript; charset=utf-8"},
       {".mjs", "text/javascript; charset=utf-8"},
@@ -143,6 +143,7 @@ std::optional<std::string_view> content_type_of(const std::filesystem::path& fil
       {".mp3", "audio/mpeg"},
       {".flac", "audio/flac"},
       {".hdr", "image/vnd.radiance"},
+      {".task", "application/octet-stream"},
   }};
   const std::string suffix = lower_case(file.extension().string());
   const auto found = std::ranges::find(kKnown, suffix, &Known::first);

@@ -17,14 +17,16 @@ bool is_host(std::string_view host) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host, bool framed) {
+std::vector<std::pair<std::string, std::string>> security_headers(bool secure, std::string_view host, bool framed,
+                                                                  std::uint16_t program) {
   // Older browsers do not count a WebSocket of the same host as 'self'.
   const std::string socket = is_host(host) ? (secure ? " wss://" : " ws://") + std::string(host) : std::string();
+  const std::string beside = program > 0 ? " ws://127.0.0.1:" + std::to_string(program) : std::string();
   return {
       {"Content-Security-Policy",
        "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
        "media-src 'self' blob:; worker-src 'self' blob:; connect-src 'self' blob:" +
-           socket + "; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors " +
+           socket + beside + "; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors " +
            (framed ? "'self'" : "'none'")},
       {"X-Content-Type-Options", "nosniff"},
       {"X-Frame-Options", framed ? "SAMEORIGIN" : "DENY"},

@@ -111,11 +111,12 @@ class SocketConnection final : public Socket,
     beast::get_lowest_layer(socket_).expires_never();
     socket_.set_option(websocket::stream_base::timeout{seconds(10), kIdleSocket, true});
     const std::string host(request_[http::field::host]);
-    socket_.set_option(websocket::stream_base::decorator([host](websocket::response_type& response) {
-      response.set(http::field::sec_websocket_protocol, std::string(kProtocol));
-      for (const auto& [name, value] : security_headers(std::is_same_v<Stream, SecureStream>, host, false))
-        response.set(name, value);
-    }));
+    socket_.set_option(websocket::stream_base::decorator(
+        [host, program = place_.hall().options.hand_program](websocket::response_type& response) {
+          response.set(http::field::sec_websocket_protocol, std::string(kProtocol));
+          for (const auto& [name, value] : security_headers(std::is_same_v<Stream, SecureStream>, host, false, program))
+            response.set(name, value);
+        }));
     socket_.read_message_max(place_.hall().options.message_bytes);
     socket_.auto_fragment(false);
     socket_.async_accept(request_, [self = this->shared_from_this()](error_code error) {
@@ -360,7 +361,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       if (request.method() != http::verb::head) response_->body() = {answer_.body->data() + answer_.from, answer_.size};
     }
     const std::string host(request[http::field::host]);
-    for (const auto& [name, value] : security_headers(kSecure, host, answer_.framed))
+    for (const auto& [name, value] : security_headers(kSecure, host, answer_.framed, hall_->options.hand_program))
       response_->set(name, value);
     for (const auto& [name, value] : answer_.headers)
       response_->insert(name, value);

@@ -30,6 +30,7 @@ struct WebServerOptions {
   std::size_t most_of_address = 100;
   std::size_t header_bytes = std::size_t{16} << 10U;
   std::size_t body_bytes = std::size_t{64} << 10U;
+  std::uint16_t hand_program = 0;                      ///< pages may talk to this port of their own machine; 0: to none
   std::size_t message_bytes = std::size_t{64} << 10U;  ///< from a browser, over its WebSocket
 };
 

@@ -20,7 +20,7 @@ async function start(): Promise<void> {
     const [{ default: Kiosk }, { stereoOf }] = await Promise.all([import('./kiosk/Kiosk.svelte'), import('./scene/stereo')]);
     const given = new URLSearchParams(location.search);
     const [token, language] = [given.get('token') ?? '', given.get('language') ?? ''];
-    mount(Kiosk, { target, props: { kiosk, token, language, stereo: stereoOf(given) } });
+    mount(Kiosk, { target, props: { kiosk, token, language, stereo: stereoOf(given), handAtOnce: given.get('hand') === 'camera' } });
   } else if (location.pathname.startsWith('/playback/')) {
     const { default: Playback } = await import('./playback/Playback.svelte');
     mount(Playback, { target, props: { visit: decodeURIComponent(location.pathname.slice('/playback/'.length)) } });

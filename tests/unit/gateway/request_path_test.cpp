@@ -103,9 +103,17 @@ TEST(OwnOrigin, IsTheHostItself) {
   EXPECT_FALSE(is_own_origin("http://museum.example", "museum", false));
 }
 
-TEST(SecurityHeaders, AHostThatIsNoneStaysOut) {
-  for (const auto& [name, value] : security_headers(true, "a; script-src *", false))
+TEST(SecurityHeaders, WhatCannotBeAHostStaysOut) {
+  for (const auto& [name, value] : security_headers(true, "a; script-src *", false, 0))
     EXPECT_EQ(value.find("script-src *"), std::string::npos) << name;
+}
+
+TEST(SecurityHeaders, APageMayTalkToOneProgramBesideIt) {
+  const auto policy = [](std::uint16_t program) {
+    return security_headers(true, "museum", false, program).front().second;
+  };
+  EXPECT_NE(policy(8765).find("connect-src 'self' blob: wss://museum ws://127.0.0.1:8765;"), std::string::npos);
+  EXPECT_EQ(policy(0).find("127.0.0.1"), std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // One kiosk in a page: what the gateway says, the picture of it, the hand. Without a document of its own: Kiosk.svelte shows it.
 import { Box3, Vector3 } from 'three';
+import type { CameraHand } from '../camera/camera_hand';
+import { sightOf, type Sight } from '../camera/reach';
 import { underFinger, placeToTake, type UnderFinger } from '../scene/picking';
 import { Picture, type InsetPlace } from '../scene/picture';
 import { inPlace, type StereoSetup } from '../scene/stereo';
@@ -48,6 +50,8 @@ export interface Shown {
   inset: { kind: 'detail' | 'whole'; place: InsetPlace } | null;
   /** Things are still being fetched. */
   loading: boolean;
+  /** A visitor's hand before a camera, while it is used. */
+  hand: CameraHand | null;
 }
 
 export class KioskSession {
@@ -78,6 +82,7 @@ export class KioskSession {
   private muted = false;
   private ended = false;
   private headset: Headset | null = null;
+  private hand: CameraHand | null = null;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -125,6 +130,7 @@ export class KioskSession {
   end(): void {
     this.ended = true;
     this.headset?.leave();
+    this.leaveHand();
     this.connection.end();
     this.pointer.end();
     this.sound.silence();
@@ -160,6 +166,28 @@ export class KioskSession {
       ended: () => (this.headset = null),
     });
   }
+  /** The visitor's hand before a camera; `stays`: until the page goes. Null: nothing here finds hands. */
+  async showHand(stays: boolean): Promise<CameraHand | null> {
+    const finders = this.state.cameraHand;
+    if (!finders) return null;
+    this.sound.unlock();
+    const [{ CameraHand }, { fromModel, fromProgram }] = await Promise.all([import('../camera/camera_hand'), import('../camera/sources')]);
+    this.hand ??= new CameraHand(
+      (listener) => (finders.program > 0 ? fromProgram(finders.program, listener) : fromModel(this.address('/hand-model'), listener)),
+      {
+        sight: () => this.sight(),
+        holds: () => this.state.tracked?.hands.some(({ holding }) => holding) ?? false,
+        send: (bytes) => this.connection.sendBytes(bytes),
+        left: () => this.leaveHand(),
+      },
+      stays,
+    );
+    return this.hand;
+  }
+  leaveHand(): void {
+    this.hand?.end();
+    this.hand = null;
+  }
   resize(width: number, height: number, corner: InsetPlace | null): void {
     this.hidden = width === 0 || height === 0;
     if (this.hidden) return;
@@ -194,13 +222,19 @@ export class KioskSession {
     const complete = picture.world.complete;
     const view = picture.view();
     return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, view, things: this.things(),
-      headset: this.headset?.look() ?? null, ...picture.report() };
+      headset: this.headset?.look() ?? null, camera: this.hand?.look() ?? null, ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
   placeOf(object: number): { x: number; y: number } | null {
     return placeToTake(this.picture.pickScene(), object, this.axleOf(object));
   }
 
+  /** What a hand before a camera reaches: the middle of the work, as the picture looks at it. */
+  private sight(): Sight {
+    const { world, camera } = this.picture;
+    const work = world.work.isEmpty() ? world.interest : world.work;
+    return sightOf(camera.matrixWorld, camera.projectionMatrix, work.getCenter(new Vector3()));
+  }
   private axleOf(object: number): { p: Vector3; d: Vector3 } | null {
     const joint = this.state.presentation?.affordances.find(
       (a) => a.kind === 'turns' && a.object === object && (a.agent === '' || this.state.world?.agents.includes(a.agent)),
@@ -379,6 +413,7 @@ export class KioskSession {
       hovering: this.hover !== null,
       inset: this.picture.inset,
       loading: !this.picture.world.complete,
+      hand: this.hand,
     });
   }
 }

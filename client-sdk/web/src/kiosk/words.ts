@@ -1,4 +1,5 @@
 // The page's own words. All others come from the gateway, in the visitor's language.
+import type { CameraState } from '../camera/camera_hand';
 
 export interface Words {
   waiting: string;
@@ -27,6 +28,12 @@ export interface Words {
   recenter: string;
   leaveHeadset: string;
   noHeadset: string;
+  useHand: string;
+  cameraHand: string;
+  cameraMiddle: string;
+  cameraStop: string;
+  cameraOff: string;
+  camera: Record<CameraState, string>;
 }
 
 const kEnglish: Words = {
@@ -56,6 +63,21 @@ const kEnglish: Words = {
   recenter: 'To the machine',
   leaveHeadset: 'Leave',
   noHeadset: 'The headset did not begin. Put it on, and try again.',
+  useHand: 'Use your own hand',
+  cameraHand: 'Your hand before the camera',
+  cameraMiddle: 'My hand is at the machine',
+  cameraStop: 'Stop',
+  cameraOff: 'The camera hand is off here: the gateway has neither a model (--hand-model) nor a program (--hand-program).',
+  camera: {
+    starting: 'The camera is being started …',
+    looking: 'Show your hand to the camera, as if you were at the machine. No picture leaves this device.',
+    seen: 'Close your hand to take something, open it to let go.',
+    noCamera: 'No camera can be used. Connect one, allow it for this page, and open the page by https.',
+    noModel: 'The gateway gives no model of hands. See its log, or start it with --hand-model FILE.',
+    badModel: 'The model of hands does not work in this browser. Give the gateway the file hand_landmarker.task.',
+    noProgram: 'The program that sees hands does not answer. Start it on this machine.',
+    badProgram: 'The program that sees hands sends what this page cannot read. Compare their versions.',
+  },
 };
 const kGreek: Words = {
   waiting: 'Το έκθεμα ετοιμάζεται …',
@@ -84,6 +106,21 @@ const kGreek: Words = {
   recenter: 'Προς τη μηχανή',
   leaveHeadset: 'Έξοδος',
   noHeadset: 'Το κράνος δεν ξεκίνησε. Φορέστε το και δοκιμάστε πάλι.',
+  useHand: 'Με το δικό σας χέρι',
+  cameraHand: 'Το χέρι σας μπροστά στην κάμερα',
+  cameraMiddle: 'Το χέρι μου είναι στη μηχανή',
+  cameraStop: 'Τέλος',
+  cameraOff: 'Το χέρι με κάμερα είναι εκτός λειτουργίας: η πύλη δεν έχει ούτε μοντέλο (--hand-model) ούτε πρόγραμμα (--hand-program).',
+  camera: {
+    starting: 'Η κάμερα ξεκινά …',
+    looking: 'Δείξτε το χέρι σας στην κάμερα, σαν να ήσασταν στη μηχανή. Καμία εικόνα δεν φεύγει από τη συσκευή.',
+    seen: 'Κλείστε το χέρι για να πιάσετε κάτι, ανοίξτε το για να το αφήσετε.',
+    noCamera: 'Δεν υπάρχει κάμερα για χρήση. Συνδέστε μία, επιτρέψτε την για τη σελίδα και ανοίξτε τη σελίδα με https.',
+    noModel: 'Η πύλη δεν δίνει μοντέλο χεριών. Δείτε το αρχείο καταγραφής της ή ξεκινήστε την με --hand-model ΑΡΧΕΙΟ.',
+    badModel: 'Το μοντέλο χεριών δεν λειτουργεί σε αυτόν τον φυλλομετρητή. Δώστε στην πύλη το αρχείο hand_landmarker.task.',
+    noProgram: 'Το πρόγραμμα που βλέπει τα χέρια δεν απαντά. Ξεκινήστε το σε αυτό το μηχάνημα.',
+    badProgram: 'Το πρόγραμμα που βλέπει τα χέρια στέλνει κάτι που η σελίδα δεν διαβάζει. Συγκρίνετε τις εκδόσεις τους.',
+  },
 };
 
 export const wordsIn = (language: string): Words => (language === 'el' ? kGreek : kEnglish);

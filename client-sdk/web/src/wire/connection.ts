@@ -1,4 +1,4 @@
-// The WebSocket to the gateway: it comes back by itself, however often it is lost.
+// A WebSocket, to the gateway or to a program beside the browser: it comes back by itself, however often it is lost.
 
 const kFirstWait_ms = 500;
 const kLongestWait_ms = 10_000;
@@ -30,6 +30,7 @@ export class Connection {
     private readonly url: string,
     private readonly listener: Listener,
     private readonly Socket: typeof WebSocket = WebSocket,
+    private readonly subprotocol = kSubprotocol,
   ) {
     this.open();
   }
@@ -57,7 +58,7 @@ export class Connection {
   }
 
   private open(): void {
-    const socket = new this.Socket(this.url, kSubprotocol);
+    const socket = new this.Socket(this.url, this.subprotocol);
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {

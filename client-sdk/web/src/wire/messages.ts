@@ -138,7 +138,12 @@ export interface PointerView {
   /** Further hands of this page, which work at the same time. */
   others: PointerView[];
 }
-/** This page's hands in a headset: right, left. */
+/** What finds hands in a camera's pictures: a model that the gateway has, a program at this port of this machine (0: none). */
+export interface HandFinders {
+  model: boolean;
+  program: number;
+}
+/** This page's hands in a headset or before a camera: right, left. */
 export interface TrackedState {
   hands: { link: PointerView['link']; holding: boolean }[];
 }
@@ -161,6 +166,8 @@ export interface KioskState {
   overlay: Overlay | null;
   pointer: PointerView | null;
   tracked: TrackedState | null;
+  /** Null: the camera hand is off. */
+  cameraHand: HandFinders | null;
   /** What a technician has set for this page, 0..1; 0: mute. */
   volume: number;
   /** Why the gateway ended the connection, with what to do. */
@@ -178,6 +185,7 @@ export const kNothingKnown: KioskState = {
   overlay: null,
   pointer: null,
   tracked: null,
+  cameraHand: null,
   volume: 0.8,
   bye: null,
 };
@@ -345,6 +353,11 @@ function pointerOf(m: Fields): PointerView {
   };
 }
 
+function findersOf(m: Fields): HandFinders | null {
+  const found = { model: m.model === true, program: indexOf(m.program) ?? 0 };
+  return found.model || found.program > 0 ? found : null;
+}
+
 function trackedOf(m: Fields): TrackedState {
   return { hands: list(m.hands).map(fields).map((h) => ({ link: text(h.link) as PointerView['link'], holding: h.holding === true })) };
 }
@@ -373,7 +386,7 @@ export function eventOf(m: Fields): WorldEvent {
 export function reduce(state: KioskState, m: Fields & { type: string }): KioskState {
   switch (m.type) {
     case 'hello':
-      return { ...state, mayPoint: m.mayPoint === true, display: text(m.display), bye: null };
+      return { ...state, mayPoint: m.mayPoint === true, display: text(m.display), cameraHand: findersOf(fields(m.cameraHand)), bye: null };
     case 'link': {
       const known = ['searching', 'joined', 'refused', 'lost'].includes(text(m.state));
       return known ? { ...state, link: text(m.state) as LinkState, refusal: text(m.refusal) } : state;
