@@ -247,6 +247,23 @@ class Gateway(EndToEnd):
         browser.wait("tracked", lambda tracked: all(hand["link"] == "none" for hand in tracked["hands"]))
         self.assertEqual(process.stop(), 0, process.text())
 
+    def test_a_model_of_hands_is_given_to_whom_the_kiosk_is_open(self):
+        model = self.folder / "hand_landmarker.task"
+        model.write_bytes(b"no model")
+        refused = self.start("refused", "gateway", "--listen", "127.0.0.1:0", "--state", self.folder / "other", "--hand-model", model)
+        wait_until(lambda: not refused.running(), 20, "a file of another kind is refused")
+        self.assertIn("--hand-model", refused.text())
+        model.write_bytes(b"PK\3\4 a bundle")
+        process, page = self.gateway("--hand-model", model, "--hand-program", "8765")
+        browser = Browser(page, self.path(process))
+        self.addCleanup(browser.close)
+        self.assertEqual(browser.wait("hello")["cameraHand"], {"model": True, "program": 8765})
+        status, headers, body = page.get(f"/hand-model?token={self.token(process)}")
+        self.assertEqual((status, body), (200, model.read_bytes()))
+        self.assertIn(" ws://127.0.0.1:8765;", headers["content-security-policy"])
+        self.assertEqual(page.get("/hand-model")[0], 403)
+        self.assertEqual(process.stop(), 0, process.text())
+
     @marked("draws")
     def test_a_display_shows_a_code_that_leads_a_phone_to_its_kiosk(self):
         """Read by a program that knows nothing of how it was made."""

@@ -171,6 +171,13 @@ describe('a hand before the camera', () => {
     show({ p: [0, 0, 0.5], bent: 0.3 });
     expect(hand.state).toBe('seen');
   });
+  it('says where it is seen too seldom', () => {
+    const { hand, page, show } = begin();
+    for (let k = 0; k < 30; ++k, page.now += 300) show({ p: [0, 0, 0.5], bent: 0.3 });
+    expect(hand.state).toBe('slow');
+    for (let k = 0; k < 30; ++k) show({ p: [0, 0, 0.5], bent: 0.3 });
+    expect(hand.state).toBe('seen');
+  });
   it('sends no more than the gateway takes', () => {
     const { sent, page, listener } = begin();
     for (let k = 0; k < 1000; ++k, ++page.now) listener.seen(pictureOf({ p: [0, 0, 0.5], bent: 0.3 }));

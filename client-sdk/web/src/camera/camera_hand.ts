@@ -15,7 +15,7 @@ export interface CameraPage {
   /** Nobody has shown a hand for long: the camera goes off. */
   left(): void;
 }
-export type CameraState = 'starting' | 'looking' | 'seen' | Trouble;
+export type CameraState = 'starting' | 'looking' | 'seen' | 'slow' | Trouble;
 
 /** Distances are what a single camera sees worst. */
 const kPlaceSteady = { cutoff: 1.5, perSpeed: 8 };
@@ -25,6 +25,9 @@ const kAway_ms = 400;
 /** The gateway takes 90 messages a second; cameras are slower, programs may not be. */
 const kSendEvery_ms = 1000 / 60;
 const kLeft_ms = 180_000;
+/** The gateway takes a hand that it has not heard of for 200 ms for gone. */
+const kSlow_ms = 170;
+const kMean = 0.15;
 
 /** One hand over time. */
 class FollowedHand {
@@ -63,6 +66,8 @@ export class CameraHand implements HandListener {
   private at: number;
   private seenAt: number;
   private sent = 0;
+  /** Between pictures, on average. */
+  private every_ms = 0;
 
   /** `stays`: it waits for hands as long as the page is there. */
   constructor(
@@ -84,7 +89,8 @@ export class CameraHand implements HandListener {
   }
   /** For technicians and tests. */
   look(): object {
-    return { state: this.state, detail: this.detail, sent: this.sent, hands: this.followed.map(({ side, p_C }) => ({ side, p_C: p_C.toArray() })) };
+    return { state: this.state, detail: this.detail, sent: this.sent, every_ms: this.every_ms,
+      hands: this.followed.map(({ side, p_C }) => ({ side, p_C: p_C.toArray() })) };
   }
 
   trouble(what: Trouble | null, detail = ''): void {
@@ -94,11 +100,12 @@ export class CameraHand implements HandListener {
   seen(picture: CameraPicture): void {
     const now = this.clock();
     if (now - this.at < kSendEvery_ms) return;
+    this.every_ms += kMean * (Math.min(now - this.at, 1000) - this.every_ms);
     this.reach.look(this.page.sight(), (now - this.at) / 1000, this.page.holds());
     this.at = now;
     this.picture = picture;
     const hands = this.follow(picture, now);
-    this.state = hands.length > 0 ? 'seen' : 'looking';
+    this.state = hands.length === 0 ? 'looking' : this.every_ms > kSlow_ms ? 'slow' : 'seen';
     if (hands.length > 0) {
       this.seenAt = now;
       this.page.send(handBytes(hands));

@@ -38,7 +38,7 @@ function pointsOf(v: unknown, dimensions: number): number[][] | null {
   return fits ? (v as number[][]) : null;
 }
 
-/** A message of a program beside the browser (README.md); null: it cannot be read. */
+/** A message of a program beside the browser (client-sdk/web/CAMERA.md); null: it cannot be read. */
 export function parsePicture(json: string): CameraPicture | null {
   let message: Record<string, unknown>;
   try {

@@ -76,7 +76,8 @@ class ModelSource implements HandSource {
   }
   private fail(what: Trouble, why: unknown): void {
     this.end();
-    this.listener.trouble(what, String(why));
+    console.warn('camera hand:', what, why);
+    this.listener.trouble(what, String(why).split(/[;\n]/, 1)[0]);  // the rest is for those who make the library
   }
   private hear(found: Found): void {
     if ('failed' in found) return this.fail('badModel', found.failed);

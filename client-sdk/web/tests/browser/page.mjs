@@ -4,7 +4,8 @@ import { createRequire } from 'node:module';
 import { chromium } from 'playwright-core';
 
 const kFlags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-  '--disable-component-update', '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+  '--disable-component-update', '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+  '--use-fake-device-for-media-stream', '--use-fake-ui-for-media-stream'];  // a camera that sees no hand
 export const kTablet = { width: 800, height: 600 };
 export const kPhone = { width: 390, height: 780 };
 

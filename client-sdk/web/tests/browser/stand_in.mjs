@@ -6,7 +6,7 @@ import { fileURLToPath } from 'node:url';
 import { WebSocketServer } from 'ws';
 
 const kModels = fileURLToPath(new URL('../../../../scenarios/models/', import.meta.url));
-const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css',
+const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
   '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
 const kStill = [0, 0, 0, 0, 0, 0, 1];
 /** As the gateway has it: what the page may not do there, it may not do here. */
@@ -76,6 +76,8 @@ export class StandIn {
   hands = [];
   sockets = new Set();
   frame = frameBytes;
+  /** Of hands, for pages with a camera; null: none is there. */
+  handModel = null;
 
   /** `file`: the mesh file; without it, the tree's own of the model's name. */
   constructor(app, model, takeable, file = readFileSync(join(kModels, `${model}.glb`))) {
@@ -125,6 +127,10 @@ export class StandIn {
       this.fetched.push(content[1]);
       response.writeHead(200, { 'content-type': 'application/octet-stream' });
       return response.end(this.file);
+    }
+    if (pathname === '/hand-model') {
+      response.writeHead(this.handModel ? 200 : 404, { 'content-type': 'application/octet-stream' });
+      return response.end(this.handModel);
     }
     const file = pathname.startsWith('/app/') ? join(this.app, pathname.slice(4)) : join(this.app, 'index.html');
     if (pathname.startsWith('/api/') || !existsSync(file)) {
