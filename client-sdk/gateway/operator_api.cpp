@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/browsers/asked_devices.hpp"
 #include "client-sdk/gateway/browsers/device_json.hpp"
 #include "client-sdk/gateway/exhibit_api.hpp"
 #include "client-sdk/gateway/http/request_path.hpp"
@@ -26,6 +27,8 @@ constexpr Duration kOpensWithin = std::chrono::seconds(15);
 constexpr Duration kAnswersWithin = std::chrono::seconds(5);
 constexpr Duration kPictureWithin = std::chrono::seconds(20);
 constexpr std::size_t kAuditShown = 500;
+constexpr std::string_view kKiosks = "/api/kiosks/";
+constexpr std::string_view kDevices = "/devices";
 
 HttpAnswer json_answer(const ApiJson& json) {
   return fresh_answer(json.dump(-1, ' ', false, ApiJson::error_handler_t::replace));
@@ -260,9 +263,31 @@ ApiJson accounts_json(const Accounts& accounts) {
   return {{"accounts", list}};
 }
 
+/// A kiosk that no browser uses is joined first, which takes a moment. Where `order` is not null, a device is asked.
+void look_at_devices(GatewaySite& site, const std::string& kiosk, const client::DeviceRequest* order,
+                     const Done& done) {
+  const auto hub = site.hub_of(kiosk);
+  if (!hub) return done(refusal(503, "too many kiosks are in use", "try again later"));
+  const auto asked = order == nullptr ? std::nullopt : std::optional(*order);
+  const auto look = [hub, asked]() -> std::optional<HttpAnswer> {
+    hub->use(time_now());
+    if (hub->link() != client::LinkState::joined) return std::nullopt;
+    if (asked)
+      if (const auto sent = hub->asked_devices().ask(*hub->client(), *asked, time_now()); !sent)
+        return refusal(sent.error());
+    return json_answer({{"devices", hub->devices_json(time_now())}});
+  };
+  site.wait_for(look, kAnswersWithin,
+                refusal(504, "the kiosk could not be joined in time", "check that the server runs"), done);
+}
+
 bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::string& verb, const ApiJson& json,
                    const std::string& body, const Done& answer) {
   if (!site.knows_kiosk(kiosk)) return answer(unknown_kiosk(kiosk)), true;
+  if (verb == "device") {
+    const auto order = parse_device_order(body);
+    return order ? look_at_devices(site, kiosk, &*order, answer) : answer(refusal(order.error())), true;
+  }
   const auto until_then = with_end(site, kiosk, verb, body, answer);
   if (!until_then) return answer(refusal(until_then.error())), true;
   const Done& done = *until_then;
@@ -318,6 +343,11 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
   if (path == "/api/operations") return done(operations_answer(site)), true;
   if (answer_visits_get(site, request, done)) return true;
   if (answer_studio_get(site, request, done)) return true;
+  if (operates && path.starts_with(kKiosks) && path.ends_with(kDevices)) {
+    const std::string kiosk = path.substr(kKiosks.size(), path.size() - kKiosks.size() - kDevices.size());
+    if (!site.knows_kiosk(kiosk)) return done(unknown_kiosk(kiosk)), true;
+    return look_at_devices(site, kiosk, nullptr, done), true;
+  }
   const bool for_operators = path == "/api/audit" || path == "/api/accounts" || path == "/api/exhibits";
   if (!for_operators) return false;
   if (!operates) return done(not_allowed("operator")), true;
@@ -349,7 +379,6 @@ bool answer_api_post(GatewaySite& site, const Session& session, const HttpReques
   const bool now = json.contains("now") && json["now"].is_boolean() && json["now"].get<bool>();
   if (answer_exhibits_post(site, request, now, done)) return true;
   if (answer_operations_post(site, request, done)) return true;
-  constexpr std::string_view kKiosks = "/api/kiosks/";
   if (!request.path.starts_with(kKiosks)) return false;
   const std::string rest = request.path.substr(kKiosks.size());
   const std::size_t slash = rest.find('/');

@@ -1,8 +1,6 @@
 #include "client-sdk/gateway/preview_api.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client-sdk/gateway/browsers/asked_devices.hpp"
 #include "client-sdk/gateway/studio_api.hpp"
 #include "client-sdk/studio/edits/command.hpp"
 #include "client-sdk/studio/shelf/shelf.hpp"
@@ -89,21 +88,6 @@ void ask_device(GatewaySite& site, const std::string& draft, const std::string& 
   done(asked ? looked_at(site, draft) : refusal(asked.error()));
 }
 
-std::optional<client::DevicePlace> place_in(const PaceJson& json) {
-  const auto number = [&json](const char* name) {
-    const auto found = json.find(name);
-    return found != json.end() && found->is_number() ? found->get<double>() : std::nan("");
-  };
-  client::DevicePlace place{Vec3::Zero(), number("turn_rad"), number("scale")};
-  const auto center = json.find("center_m");
-  if (center == json.end() || !center->is_array() || center->size() != 3) return std::nullopt;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!(*center)[i].is_number()) return std::nullopt;
-    place.p_WD[static_cast<Eigen::Index>(i)] = (*center)[i].get<double>();
-  }
-  return place;
-}
-
 }  // namespace
 
 Expected<PaceWish> parse_pace(const std::string& body) {
@@ -126,34 +110,6 @@ Expected<std::string> parse_visit_order(const std::string& body) {
     if (const auto visit = json.find("visit"); visit != json.end() && visit->is_string())
       return visit->get<std::string>();
   return fail(ErrorCode::invalid_value, "this names no visit", {}, R"(send {"visit": NAME}, or "" to end one)");
-}
-
-Expected<client::DeviceRequest> parse_device_order(const std::string& body) {
-  constexpr std::array<std::string_view, 4> kDeviceActions{"place", "calibrate", "test", "end-test"};
-  static_assert(kDeviceActions.size() == static_cast<std::size_t>(client::DeviceAction::end_test) + 1);
-  const auto wrong = [] {
-    return fail(
-        ErrorCode::invalid_value, "this asks for nothing that a device does", {},
-        R"(send {"user": 0 to 3, "action": "test", "end-test" or "calibrate"}, or "place" with {"center_m": [X, Y, Z], )"
-        R"("turn_rad": A, "scale": S})");
-  };
-  const PaceJson json = PaceJson::parse(body, nullptr, false);
-  if (!json.is_object()) return wrong();
-  const auto user = json.find("user"), action = json.find("action"), place = json.find("place");
-  if (user == json.end() || !user->is_number_unsigned() || action == json.end() || !action->is_string()) return wrong();
-  const auto* const named = std::ranges::find(kDeviceActions, action->get<std::string>());
-  if (named == kDeviceActions.end() || user->get<std::uint64_t>() >= hand::kMaxUsers) return wrong();
-  client::DeviceRequest wanted;
-  wanted.user = user->get<std::uint32_t>();
-  wanted.action = static_cast<client::DeviceAction>(named - kDeviceActions.begin());
-  const bool places = wanted.action == client::DeviceAction::place;
-  if (places != (place != json.end())) return wrong();
-  if (!places) return wanted;
-  const auto read = place->is_object() ? place_in(*place) : std::nullopt;
-  if (!read) return wrong();
-  wanted.place = *read;
-  if (const auto good = check(wanted); !good) return tl::unexpected(good.error());
-  return wanted;
 }
 
 bool is_preview_verb(const std::string& verb) {

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "client-sdk/gateway/site.hpp"
-#include <mechane/client/devices.hpp>
 
 namespace mechane::gateway {
 
@@ -29,8 +28,5 @@ struct PaceWish {
 [[nodiscard]] Expected<PaceWish> parse_pace(const std::string& body);
 /// {"visit": NAME}; the name may be empty. Errors: invalid_value.
 [[nodiscard]] Expected<std::string> parse_visit_order(const std::string& body);
-/// {"user": 0, "action": "test"}, and with the action "place": {"place": {"center_m": [X, Y, Z], "turn_rad": A, "scale": S}}. Errors:
-/// invalid_value.
-[[nodiscard]] Expected<client::DeviceRequest> parse_device_order(const std::string& body);
 
 }  // namespace mechane::gateway

@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from browser import Browser, Page, WithGateway
-from harness import PATIENCE, ROOT, SCENARIO, marked, wait_until
+from harness import DRIVERS, PATIENCE, ROOT, SCENARIO, marked, wait_until
 
 VILLAGE = ROOT / "scenarios/village/village.x3d"
 CLOSED = {"week": {}}
@@ -124,6 +124,13 @@ class Console(WithGateway):
         self.server(scenario=[VILLAGE, SCENARIO], records=False)
         process, page = self.gateway()
         browser = self.browser(page)
+        self.environment["MECHANE_DRIVERS"] = str(DRIVERS)
+        self.start("haptic", "haptic", "--device", "fake", "--kiosk", "kiosk-1", "--fifo-priority", "0")
+        (device,) = wait_until(lambda: self.got(page, "/api/kiosks/kiosk-1/devices")["devices"], 30, "the kiosk's device is there")
+        self.assertEqual((device["user"], device["request"]), (0, "none"))
+        for order, status in (({"user": 0, "action": "dance"}, 400), ({"user": 3, "action": "test"}, 409)):
+            self.assertTrue(self.posted(page, "/api/kiosks/kiosk-1/device", order, status)["remedy"])
+        self.posted(page, "/api/kiosks/nowhere/device", {"user": 0, "action": "test"}, 404)
         result = subprocess.run(["node", ROOT / "client-sdk/web/tests/browser/console.mjs", f"http://127.0.0.1:{page.port}", self.password,
                                  "archimedes-screw"], capture_output=True, text=True, timeout=300 * PATIENCE)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)

@@ -149,4 +149,8 @@ void KioskHub::take_world() {
   }
 }
 
+nlohmann::json KioskHub::devices_json(TimePoint now) const {
+  return client_ ? asked_devices_.look(*client_, device_reports_, now) : nlohmann::json::array();
+}
+
 }  // namespace mechane::gateway

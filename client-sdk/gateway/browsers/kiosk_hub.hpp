@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "client-sdk/gateway/browsers/asked_devices.hpp"
 #include "client-sdk/gateway/browsers/backstage.hpp"
 #include "client-sdk/gateway/browsers/browser.hpp"
 #include "client-sdk/visit/calibration_guide.hpp"
@@ -50,7 +51,9 @@ class KioskHub : public std::enable_shared_from_this<KioskHub> {
   [[nodiscard]] client::LinkState link() const { return client_ ? client_->state() : client::LinkState::searching; }
   [[nodiscard]] pointer::PointerWorld world() const;
   [[nodiscard]] const visit::DeviceNotice& devices() const { return devices_; }
-  [[nodiscard]] const std::vector<client::DeviceReport>& device_reports() const { return device_reports_; }
+  [[nodiscard]] AskedDevices& asked_devices() { return asked_devices_; }
+  /// See asked_devices.hpp; empty until the client is open.
+  [[nodiscard]] nlohmann::json devices_json(TimePoint now) const;
   [[nodiscard]] const visit::CalibrationGuide& calibration() const { return calibration_; }
   [[nodiscard]] double frames_per_s() const { return frames_per_s_; }
   /// Whether the world refused a command that client() sent.
@@ -77,6 +80,7 @@ class KioskHub : public std::enable_shared_from_this<KioskHub> {
   std::set<std::uint64_t> refused_;
   visit::DeviceNotice devices_;
   std::vector<client::DeviceReport> device_reports_;
+  AskedDevices asked_devices_;
   visit::CalibrationGuide calibration_;
   TimePoint used_, next_news_, next_follow_, next_refresh_, next_report_;
   int displays_ = 0;

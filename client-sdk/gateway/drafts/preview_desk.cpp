@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "client-sdk/gateway/browsers/device_json.hpp"
 #include "client-sdk/studio/draft/preview_file.hpp"
 #include "server/log/log.hpp"
 #include <mechane/proto/names.hpp>
@@ -17,8 +16,6 @@ namespace {
 using PreviewJson = nlohmann::json;
 
 constexpr std::uint32_t kDomainsThere = 230;
-constexpr Duration kDeviceAnswersWithin =
-    std::chrono::seconds(5);  // a device's program, which may have to let its force go first
 constexpr double kMoved_m = 1e-3;
 constexpr double kMoved_rad = 1e-2;
 constexpr std::string_view kEdit = "edit ";  // how a server's answers to edits begin
@@ -313,38 +310,10 @@ void PreviewDesk::visit_ended(std::uint64_t number, std::uint64_t visit) {
 Expected<void> PreviewDesk::ask_device(const std::string& draft, const client::DeviceRequest& request, TimePoint now) {
   auto found = running(draft);
   if (!found) return tl::unexpected(found.error());
-  Preview& preview = **found;
-  const auto is_it = [&request](const client::DeviceDetails& one) { return one.user == request.user; };
-  if (!shows_world(preview.hub.get()) || std::ranges::none_of(preview.hub->client()->device_details(), is_it))
-    return fail(ErrorCode::conflict, fmt::format("this draft has no device {}", request.user + 1), "user",
-                "start its program, and wait until it is listed");
-  const auto asked = preview.hub->client()->ask_device(request);
-  if (!asked) return tl::unexpected(asked.error());
-  if (*asked == 0) return fail(ErrorCode::io_failure, "the request could not be sent", {}, "try again in a moment");
-  preview.asked[request.user] = {*asked, now};
-  return {};
-}
-
-PreviewJson PreviewDesk::devices_of(const Preview& preview, TimePoint now) {
-  PreviewJson all = PreviewJson::array();
-  const std::vector<client::DeviceDetails> details = preview.hub->client()->device_details();
-  for (const client::DeviceReport& device : preview.hub->device_reports()) {
-    if (device.state == client::DeviceState::none) continue;
-    PreviewJson one = device_json(device);
-    const auto told = std::ranges::find(details, device.user, &client::DeviceDetails::user);
-    if (told != details.end()) one["details"] = details_json(*told);
-    const auto asked = preview.asked.find(device.user);
-    if (asked == preview.asked.end()) {
-      one["request"] = "none";
-    } else if (told != details.end() && told->answered == asked->second.id) {
-      one["request"] = told->refusal.empty() ? "done" : "refused";
-      if (!told->refusal.empty()) one["refusal"] = told->refusal;
-    } else {
-      one["request"] = now - asked->second.at > kDeviceAnswersWithin ? "silent" : "waiting";
-    }
-    all.push_back(std::move(one));
-  }
-  return all;
+  KioskHub* hub = (*found)->hub.get();
+  if (!shows_world(hub))
+    return fail(ErrorCode::conflict, "this draft is still starting", {}, "wait until it shows its world");
+  return hub->asked_devices().ask(*hub->client(), request, now);
 }
 
 void PreviewDesk::stop(const std::string& draft) {
@@ -379,7 +348,7 @@ std::string PreviewDesk::look(const std::string& draft, TimePoint now) {
     out["socket"] = fmt::format("/ws/kiosk/{}?token={}", preview.kiosk, preview.token);
     if (shows_world(preview.hub.get())) {
       add_world(*preview.hub, *preview.draft.world, preview.motion, out);
-      out["devices"] = devices_of(preview, now);
+      out["devices"] = preview.hub->devices_json(now);
     }
   }
   return out.dump(-1, ' ', false, PreviewJson::error_handler_t::replace);

@@ -93,11 +93,6 @@ class PreviewDesk {
   void tick(TimePoint now);
 
  private:
-  /// The last request to a device.
-  struct AskedDevice {
-    std::uint64_t id = 0;
-    TimePoint at;
-  };
   struct Preview {
     std::uint64_t number = 0;
     studio::PreviewDraft draft;
@@ -112,9 +107,8 @@ class PreviewDesk {
     std::int64_t kept_from = -1;                 ///< the newest revision that it did not go on with
     std::string kept_by;                         ///< and why: "body LOAD"
     MotionWatch motion;
-    std::uint64_t visits = 0;                    ///< that were played
-    std::optional<PlayedVisit> played;           ///< the last one
-    std::map<std::uint32_t, AskedDevice> asked;  ///< by the device's user
+    std::uint64_t visits = 0;           ///< that were played
+    std::optional<PlayedVisit> played;  ///< the last one
     TimePoint looked;
   };
   struct Ending {
@@ -134,7 +128,6 @@ class PreviewDesk {
   void end_visit(Preview& preview);
   void visit_ended(std::uint64_t number, std::uint64_t visit);
   void close(const std::string& draft, Preview& preview, const std::string& why);
-  [[nodiscard]] static nlohmann::json devices_of(const Preview& preview, TimePoint now);
 
   const Places places_;
   const Backstage backstage_;

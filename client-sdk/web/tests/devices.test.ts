@@ -1,8 +1,9 @@
 // Where a device's workspace lies in the world, and what the gateway tells of devices.
 import { describe, expect, it } from 'vitest';
 import {
-  boxAround, canBePut, isWithinReach, optionsOf, placeAround, reachOf, trialDeviceOf, type Box,
+  boxAround, canBePut, isWithinReach, optionsOf, placeAround, reachOf,
 } from '../src/studio/preview/devices';
+import { askedDeviceOf, type Box } from '../src/console/devices';
 
 const kWorkspace: Box = { least: [-0.1, -0.05, -0.2], greatest: [0.1, 0.05, 0.2] };
 
@@ -41,9 +42,9 @@ describe('the place of a device', () => {
 
 describe('what is told of a device', () => {
   it('is read, whatever is missing', () => {
-    expect(trialDeviceOf({ user: 1, name: 'Touch' }))
+    expect(askedDeviceOf({ user: 1, name: 'Touch' }))
       .toMatchObject({ user: 1, name: 'Touch', details: null, request: 'none', refusal: '' });
-    const told = trialDeviceOf({ request: 'burnt', details: { temperature: 0.5, place: { center_m: [1] } } });
+    const told = askedDeviceOf({ request: 'burnt', details: { temperature: 0.5, place: { center_m: [1] } } });
     expect(told.request).toBe('none');
     expect(told.details).toMatchObject({ temperature: 0.5, workspace_m: null, place: { center_m: [1, 0, 0], turn_rad: 0, scale: 1 } });
   });

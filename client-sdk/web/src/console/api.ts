@@ -1,5 +1,6 @@
 // The gateway's JSON API, as the console uses it. An error is a sentence: what happened, and what to do.
 
+import { devicesOf, type AskedDevice, type DeviceOrder } from './devices';
 import { playbackOf, remarksOf, visitsAddress, visitsOf } from './visits';
 import type { PlaybackState, Remark, VisitsFigures, VisitsQuery } from './visits';
 
@@ -121,6 +122,12 @@ export class Api {
     const said = fields(await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/settings`, { display, settings, ...end }));
     const refused = list(said.answers).map(fields).find((answer) => text(answer.refusal) !== '');
     if (refused) throw new ApiError(409, `${text(refused.display)}: ${text(refused.refusal)}.`, '');
+  }
+  async devices(kiosk: string): Promise<AskedDevice[]> {
+    return devicesOf(await this.json('GET', `/api/kiosks/${encodeURIComponent(kiosk)}/devices`));
+  }
+  async askDevice(kiosk: string, order: DeviceOrder): Promise<AskedDevice[]> {
+    return devicesOf(await this.json('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/device`, order));
   }
   async picture(kiosk: string, display: string): Promise<Blob> {
     return (await this.send('POST', `/api/kiosks/${encodeURIComponent(kiosk)}/picture`, { display })).blob();

@@ -4,7 +4,7 @@ import { reduce, kNothingKnown, type KioskState } from '../wire/messages';
 import { catalogueOf, queryText, type About, type Catalogue, type Query } from './shelf/catalogue';
 import type { DraftRequests, Order } from './draft';
 import { filesOf, nodesOf, type DraftFile, type MeshNode } from './shelf/files';
-import type { DeviceOrder } from './preview/devices';
+import type { DeviceOrder } from '../console/devices';
 import { previewOf, type Pacing, type Preview } from './preview/preview';
 import { schemaOf, type Schema } from './inspector/schema';
 import { libraryOf, versionsOf, viewOf, type Library, type Version, type View } from './view';

@@ -7,7 +7,7 @@ import { jointsOfMoved, type JointsOfMoved } from './picture/left_behind';
 import { Draft, type DraftState, type Outcome } from './draft';
 import type { JointPlan } from './picture/joint';
 import { orderCommands, siblingsOf } from './order';
-import type { Box } from './preview/devices';
+import type { Box } from '../console/devices';
 import { PreviewDesk } from './preview/preview_desk.svelte';
 import { draftRequests, studio } from './requests';
 import type { Schema } from './inspector/schema';

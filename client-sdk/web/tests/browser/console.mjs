@@ -41,6 +41,13 @@ try {
   await page.selectOption('article form select', scenario);
   await page.click('article form button.main');
   await page.waitForSelector('[role=status]:has-text("is open.")', { timeout: 30_000 });
+  await page.click('summary:text-is("Haptic devices")');
+  await page.click('button:text-is("Test it")', { timeout: 30_000 });
+  await page.waitForSelector('text=Being tested');
+  await assertAccessible('a device in its test');
+  if (folder) await page.screenshot({ path: `${folder}/device.png`, fullPage: true });
+  await page.click('button:text-is("End the test")');
+  await page.waitForSelector('button:text-is("Test it")');
   await page.click('summary:text-is("More")');
   await page.selectOption('label:has-text("Drawn hand") select', 'glove');
   await page.waitForSelector('[role=status]:has-text("hand is now glove.")');

@@ -11,7 +11,7 @@ import { Picture } from '../../scene/picture';
 import type { Frame } from '../../wire/frame';
 import { kNothingKnown, type KioskState, type PoseArray, type View } from '../../wire/messages';
 import type { Vector } from '../commands';
-import type { Box } from '../preview/devices';
+import type { Box } from '../../console/devices';
 import type { JointMark } from './joint';
 import { jointShape } from './joint_shape';
 import { Ruler, type Measured } from './ruler';

@@ -1,6 +1,6 @@
 // Words about the haptic devices of a trial.
 import type { Language } from '../words';
-import type { kAnswers } from './devices';
+import type { kAnswers } from '../../console/devices';
 
 export interface DeviceWords {
   tab: string;

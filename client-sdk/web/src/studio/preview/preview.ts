@@ -2,7 +2,7 @@
 import { fields, list, number, text } from '../../console/api';
 import type { Texts } from '../../wire/messages';
 import { textsOf } from '../view';
-import { trialDeviceOf, type TrialDevice } from './devices';
+import { askedDeviceOf, type AskedDevice } from '../../console/devices';
 
 export type PreviewState = 'none' | 'starting' | 'running' | 'failed';
 export interface StillReason {
@@ -53,7 +53,7 @@ export interface Preview {
   step: string;
   still: Still[];
   /** Of its kiosk: haptic ones, and what starts another one there. */
-  devices: TrialDevice[];
+  devices: AskedDevice[];
   kiosk: string;
   domain: number;
   visit: Played;
@@ -101,7 +101,7 @@ export function previewOf(v: unknown): Preview {
     activity: text(p.activity),
     step: text(p.step),
     still: list(p.still).map(stillOf),
-    devices: list(p.devices).map(trialDeviceOf),
+    devices: list(p.devices).map(askedDeviceOf),
     kiosk: text(p.kiosk),
     domain: number(p.domain),
     visit: playedOf(p.visit),

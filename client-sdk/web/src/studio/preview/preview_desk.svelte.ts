@@ -7,7 +7,7 @@ import { decodeFrame } from '../../wire/frame';
 import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type Quantity, type WorldEvent } from '../../wire/messages';
 import type { Draft } from '../draft';
 import { wantedIn } from '../flow/flow';
-import type { DeviceOrder } from './devices';
+import type { DeviceOrder } from '../../console/devices';
 import { kFetches_ms, LostHold } from './lost_hold';
 import type { Preview } from './preview';
 import { Series } from './preview_series';
