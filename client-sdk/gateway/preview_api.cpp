@@ -106,17 +106,17 @@ std::optional<client::DevicePlace> place_in(const PaceJson& json) {
 
 }  // namespace
 
-Expected<PaceWish> parse_pace(const std::string& body) {
+Expected<PaceRequest> parse_pace(const std::string& body) {
   const PaceJson json = PaceJson::parse(body, nullptr, false);
   if (json.is_object() && json.size() == 1) {
     const auto pace = json.find("pace"), ticks = json.find("ticks");
     if (pace != json.end() && pace->is_number() && pace->get<double>() >= 0 && pace->get<double>() <= 1)
-      return PaceWish{pace->get<double>(), 0};
+      return PaceRequest{pace->get<double>(), 0};
     if (ticks != json.end() && ticks->is_number_unsigned() && ticks->get<std::uint64_t>() >= 1 &&
         ticks->get<std::uint64_t>() <= kMostTicks)
-      return PaceWish{1, ticks->get<std::uint32_t>()};
+      return PaceRequest{1, ticks->get<std::uint32_t>()};
   }
-  return fail(ErrorCode::invalid_value, "this is neither a pace nor a number of ticks", {},
+  return fail(ErrorCode::invalid_value, "a pace or a number of ticks is missing, or out of range", {},
               R"(send {"pace": 0 to 1} or {"ticks": 1 to 10000})");
 }
 
@@ -133,7 +133,7 @@ Expected<client::DeviceRequest> parse_device_order(const std::string& body) {
   static_assert(kDeviceActions.size() == static_cast<std::size_t>(client::DeviceAction::end_test) + 1);
   const auto wrong = [] {
     return fail(
-        ErrorCode::invalid_value, "this asks for nothing that a device does", {},
+        ErrorCode::invalid_value, "unknown action, or a value out of range", {},
         R"(send {"user": 0 to 3, "action": "test", "end-test" or "calibrate"}, or "place" with {"center_m": [X, Y, Z], )"
         R"("turn_rad": A, "scale": S})");
   };
