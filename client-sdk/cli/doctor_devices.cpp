@@ -458,7 +458,7 @@ std::vector<CheckResult> DeviceCheck::results() {
   if (results_.empty())
     Problems().report(
         "haptic devices", CheckStatus::ok,
-        "none is set up for a kiosk (/etc/mechane/haptic-NAME), and none that Mechane knows is plugged in and on",
+        "no kiosk has one (/etc/mechane/haptic-NAME), and no device that Mechane knows is connected and switched on",
         results_);
   return std::move(results_);
 }

@@ -64,7 +64,7 @@ struct TextStyle {
 };
 
 /// Draws from the top down; later shapes cover earlier ones.
-class Sheet {
+class Page {
  public:
   double y = 0;
 
@@ -93,7 +93,7 @@ class Sheet {
     body_ += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}' stroke='{}' stroke-width='2'/>\n", x, at,
                          radius, fill, edge);
   }
-  [[nodiscard]] std::string page() const {
+  [[nodiscard]] std::string svg() const {
     const double height = y + 20;
     return fmt::format(
                "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' width='{0:.0f}' "
@@ -122,84 +122,84 @@ struct Part {
   std::string colour;
   const char* ink;
 };
-void stacked(Sheet& sheet, const std::vector<Part>& parts) {
+void stacked(Page& page, const std::vector<Part>& parts) {
   const std::size_t all = std::accumulate(parts.begin(), parts.end(), std::size_t{0},
                                           [](std::size_t n, const Part& p) { return n + p.count; });
   double x = kLeft;
   for (const Part& part : parts) {
     if (part.count == 0) continue;
     const double width = kField * static_cast<double>(part.count) / static_cast<double>(all);
-    sheet.box(x, sheet.y + 4, width - 1.5, kRow - 8, part.colour);
+    page.box(x, page.y + 4, width - 1.5, kRow - 8, part.colour);
     if (width > 34)
-      sheet.text(x + width / 2, sheet.y + 18, fmt::format("{:.0f} %", 100 * width / kField),
-                 {.size = 11, .colour = part.ink, .anchor = "middle"});
+      page.text(x + width / 2, page.y + 18, fmt::format("{:.0f} %", 100 * width / kField),
+                {.size = 11, .colour = part.ink, .anchor = "middle"});
     x += width;
   }
 }
 
-void heading(Sheet& sheet, const std::string& words, const std::string& unit) {
-  sheet.y += 14;
-  if (!words.empty()) sheet.text(kLeft, sheet.y + 12, words, {.size = 11, .colour = kQuiet});
-  sheet.text(kWidth - kRight + 12, sheet.y + 12, unit, {.size = 11, .colour = kQuiet});
-  sheet.y += 20;
+void heading(Page& page, const std::string& words, const std::string& unit) {
+  page.y += 14;
+  if (!words.empty()) page.text(kLeft, page.y + 12, words, {.size = 11, .colour = kQuiet});
+  page.text(kWidth - kRight + 12, page.y + 12, unit, {.size = 11, .colour = kQuiet});
+  page.y += 20;
 }
 
-void draw_endings(Sheet& sheet, const ActivitySummary& a) {
+void draw_endings(Page& page, const ActivitySummary& a) {
   const std::size_t done = a.ended[static_cast<std::size_t>(VisitEnding::done)];
   const std::size_t left = a.ended[static_cast<std::size_t>(VisitEnding::left)];
   if (a.whole() == 0) return;
-  heading(sheet, "", "errors a visit");
+  heading(page, "", "errors a visit");
   double x = kLeft;
   for (const auto& [words, colour, room] :
        {std::tuple("done without help", kStrong, 138.0), std::tuple("done with a hint or other help", kMuted, 206.0),
         std::tuple("left before the end", kWarm, 0.0)}) {
-    sheet.box(x, sheet.y - 17, 10, 10, colour);
-    sheet.text(x + 15, sheet.y - 8, words, {.size = 11, .colour = kQuiet});
+    page.box(x, page.y - 17, 10, 10, colour);
+    page.text(x + 15, page.y - 8, words, {.size = 11, .colour = kQuiet});
     x += room;
   }
-  sheet.name(sheet.y + 18, "task done");
+  page.name(page.y + 18, "task done");
   stacked(
-      sheet,
+      page,
       {{a.done_alone, kStrong, kPaper}, {done - std::min(done, a.done_alone), kMuted, kInk}, {left, kWarm, kPaper}});
-  sheet.value(sheet.y + 18, fmt::format("{:.2f}", a.mistakes_a_visit()));
-  sheet.y += kRow;
+  page.value(page.y + 18, fmt::format("{:.2f}", a.mistakes_a_visit()));
+  page.y += kRow;
 }
 
-void draw_axis(Sheet& sheet, double top, double highest) {
+void draw_axis(Page& page, double top, double highest) {
   const double step = step_of_axis(highest);
   for (int i = 0; i * step <= highest * 1.0001; ++i) {
     const double x = kLeft + kField * (i * step) / highest;
-    sheet.line(x, top, x, sheet.y, kGrid);
-    sheet.text(x, sheet.y + 16, fmt::format("{:g} s", i * step), {.size = 11, .colour = kQuiet, .anchor = "middle"});
+    page.line(x, top, x, page.y, kGrid);
+    page.text(x, page.y + 16, fmt::format("{:g} s", i * step), {.size = 11, .colour = kQuiet, .anchor = "middle"});
   }
 }
 
-void draw_steps(Sheet& sheet, const ActivitySummary& a) {
+void draw_steps(Page& page, const ActivitySummary& a) {
   double highest = 0;
   for (const StepSummary& step : a.steps)
     highest = std::max(highest, step.time.p90_s);
   if (highest <= 0) return;
   highest *= 1.04;
-  heading(sheet, "time in each step: the median, and up to where nine of ten were done", "hints, visits");
-  const double top = sheet.y;
-  sheet.y += kRow * static_cast<double>(a.steps.size());
-  draw_axis(sheet, top, highest);
-  sheet.y = top;  // the rows cover the axis
+  heading(page, "time in each step: the median, and up to where nine of ten were done", "hints, visits");
+  const double top = page.y;
+  page.y += kRow * static_cast<double>(a.steps.size());
+  draw_axis(page, top, highest);
+  page.y = top;  // the rows cover the axis
   for (const StepSummary& step : a.steps) {
-    const double middle = sheet.y + kRow / 2;
-    sheet.name(middle + 4, step.name);
+    const double middle = page.y + kRow / 2;
+    page.name(middle + 4, step.name);
     if (step.time.count > 0) {
       const double x = kLeft + kField * step.time.median_s / highest;
       const double far = kLeft + kField * step.time.p90_s / highest;
-      sheet.box(x, middle - 4, far - x, 8, kMuted);
-      sheet.line(far, middle - 7, far, middle + 7, kStrong, 2);
-      sheet.dot(x, middle, 5, kStrong, kStrong);
+      page.box(x, middle - 4, far - x, 8, kMuted);
+      page.line(far, middle - 7, far, middle + 7, kStrong, 2);
+      page.dot(x, middle, 5, kStrong, kStrong);
     }
-    sheet.value(middle + 4, fmt::format("{} hint{}, {} visit{}", step.hints, step.hints == 1 ? "" : "s", step.visits,
-                                        step.visits == 1 ? "" : "s"));
-    sheet.y += kRow;
+    page.value(middle + 4, fmt::format("{} hint{}, {} visit{}", step.hints, step.hints == 1 ? "" : "s", step.visits,
+                                       step.visits == 1 ? "" : "s"));
+    page.y += kRow;
   }
-  sheet.y += kFootOfAxis;
+  page.y += kFootOfAxis;
 }
 
 /// From a warm colour at the lowest mark over grey to blue at the highest.
@@ -218,20 +218,19 @@ Part part_of_mark(std::size_t mark, std::size_t marks, std::size_t count) {
           at > 1.6 ? kPaper : kInk};
 }
 
-void draw_scales(Sheet& sheet, const ActivitySummary& a) {
+void draw_scales(Page& page, const ActivitySummary& a) {
   const auto is_scale = [](const QuestionSummary& q) { return !q.at_mark.empty(); };
   if (std::ranges::none_of(a.questions, is_scale)) return;
-  heading(sheet, "marks, from the lowest to the highest", "mean ± spread");
+  heading(page, "marks, from the lowest to the highest", "mean ± spread");
   for (const QuestionSummary& q : a.questions) {
     if (!is_scale(q)) continue;
     std::vector<Part> parts;
     for (std::size_t mark = 1; mark <= q.at_mark.size(); ++mark)
       parts.push_back(part_of_mark(mark, q.at_mark.size(), q.at_mark[mark - 1]));
-    sheet.name(sheet.y + 18, q.when == AnswerTime::before ? q.name + " (before)" : q.name);
-    stacked(sheet, parts);
-    sheet.value(sheet.y + 18,
-                fmt::format("{:.1f} ± {:.1f} of {}, n {}", q.mean, q.spread, q.at_mark.size(), q.answers));
-    sheet.y += kRow;
+    page.name(page.y + 18, q.when == AnswerTime::before ? q.name + " (before)" : q.name);
+    stacked(page, parts);
+    page.value(page.y + 18, fmt::format("{:.1f} ± {:.1f} of {}, n {}", q.mean, q.spread, q.at_mark.size(), q.answers));
+    page.y += kRow;
   }
 }
 
@@ -240,37 +239,37 @@ struct RightShares {
   const QuestionSummary* after = nullptr;
 };
 
-void draw_right_row(Sheet& sheet, const std::string& name, const RightShares& shares) {
-  const double middle = sheet.y + kRow / 2;
+void draw_right_row(Page& page, const std::string& name, const RightShares& shares) {
+  const double middle = page.y + kRow / 2;
   const auto x_of = [](const QuestionSummary& q) { return kLeft + kField * share_of(q.right, q.judged).value_or(0); };
   const auto percent = [](const QuestionSummary* q) {
     return q == nullptr ? std::string("–") : fmt::format("{:.0f}", 100 * share_of(q->right, q->judged).value_or(0));
   };
-  sheet.name(middle + 4, name);
+  page.name(middle + 4, name);
   if (shares.before != nullptr && shares.after != nullptr)
-    sheet.line(x_of(*shares.before), middle, x_of(*shares.after), middle, kMuted, 4);
-  if (shares.before != nullptr) sheet.dot(x_of(*shares.before), middle, 5, kPaper, kStrong);
-  if (shares.after != nullptr) sheet.dot(x_of(*shares.after), middle, 5, kStrong, kStrong);
-  sheet.value(middle + 4, fmt::format("{} → {} %", percent(shares.before), percent(shares.after)));
-  sheet.y += kRow;
+    page.line(x_of(*shares.before), middle, x_of(*shares.after), middle, kMuted, 4);
+  if (shares.before != nullptr) page.dot(x_of(*shares.before), middle, 5, kPaper, kStrong);
+  if (shares.after != nullptr) page.dot(x_of(*shares.after), middle, 5, kStrong, kStrong);
+  page.value(middle + 4, fmt::format("{} → {} %", percent(shares.before), percent(shares.after)));
+  page.y += kRow;
 }
 
-void draw_right(Sheet& sheet, const ActivitySummary& a) {
+void draw_right(Page& page, const ActivitySummary& a) {
   std::map<std::string, RightShares> questions;
   for (const QuestionSummary& q : a.questions) {
     if (q.judged > 0) (q.when == AnswerTime::before ? questions[q.name].before : questions[q.name].after) = &q;
   }
   if (questions.empty()) return;
-  heading(sheet, "right answers: before (ring) and after (dot) the visit", "before → after");
-  const double bottom = sheet.y + kRow * static_cast<double>(questions.size());
+  heading(page, "right answers: before (ring) and after (dot) the visit", "before → after");
+  const double bottom = page.y + kRow * static_cast<double>(questions.size());
   for (int percent = 0; percent <= 100; percent += 25) {
     const double x = kLeft + kField * percent / 100;
-    sheet.line(x, sheet.y, x, bottom, kGrid);
-    sheet.text(x, bottom + 16, fmt::format("{} %", percent), {.size = 11, .colour = kQuiet, .anchor = "middle"});
+    page.line(x, page.y, x, bottom, kGrid);
+    page.text(x, bottom + 16, fmt::format("{} %", percent), {.size = 11, .colour = kQuiet, .anchor = "middle"});
   }
   for (const auto& [name, shares] : questions)
-    draw_right_row(sheet, name, shares);
-  sheet.y += kFootOfAxis;
+    draw_right_row(page, name, shares);
+  page.y += kFootOfAxis;
 }
 
 std::string subtitle_of(std::span<const ActivitySummary> activities) {
@@ -293,23 +292,23 @@ std::string subtitle_of(std::span<const ActivitySummary> activities) {
 }  // namespace
 
 std::string visits_svg(std::span<const ActivitySummary> activities) {
-  Sheet sheet;
-  sheet.text(24, 34, "What visitors did and said", {.size = 18, .bold = true});
-  sheet.text(24, 56, activities.empty() ? "no visit yet" : subtitle_of(activities), {.colour = kQuiet});
-  sheet.y = 76;
+  Page page;
+  page.text(24, 34, "What visitors did and said", {.size = 18, .bold = true});
+  page.text(24, 56, activities.empty() ? "no visit yet" : subtitle_of(activities), {.colour = kQuiet});
+  page.y = 76;
   for (const ActivitySummary& a : activities) {
-    sheet.line(24, sheet.y, kWidth - 24, sheet.y, kGrid);
-    sheet.text(24, sheet.y + 26, a.scenario + ", " + a.activity, {.size = 14, .bold = true});
-    sheet.text(kWidth - 24, sheet.y + 26, fmt::format("{} visit{}", a.visits, a.visits == 1 ? "" : "s"),
-               {.colour = kQuiet, .anchor = "end"});
-    sheet.y += 34;
-    draw_endings(sheet, a);
-    draw_steps(sheet, a);
-    draw_scales(sheet, a);
-    draw_right(sheet, a);
-    sheet.y += 22;
+    page.line(24, page.y, kWidth - 24, page.y, kGrid);
+    page.text(24, page.y + 26, a.scenario + ", " + a.activity, {.size = 14, .bold = true});
+    page.text(kWidth - 24, page.y + 26, fmt::format("{} visit{}", a.visits, a.visits == 1 ? "" : "s"),
+              {.colour = kQuiet, .anchor = "end"});
+    page.y += 34;
+    draw_endings(page, a);
+    draw_steps(page, a);
+    draw_scales(page, a);
+    draw_right(page, a);
+    page.y += 22;
   }
-  return sheet.page();
+  return page.svg();
 }
 
 }  // namespace mechane::cli

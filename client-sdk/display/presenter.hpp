@@ -1,5 +1,5 @@
-// Draws what a display shows: composes the scene with its words, draws it, and starts again when the graphics card has
-// lost everything.
+// Draws what a display shows: composes the scene with its words, draws it, and starts again after the graphics driver was reset
+// and all that it held is lost.
 #pragma once
 
 #include <memory>

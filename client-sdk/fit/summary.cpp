@@ -240,7 +240,10 @@ std::string verdict(const Summary& summary) {
                       "or raise --max-samples.",
                       mm_text(summary.widest_gap_mm));
   }
-  return felt + " It will feel right.";
+  const double missed_pct = 100 * summary.not_felt_share;
+  if (missed_pct < 0.005) return felt + " It will feel right.";
+  return felt +
+         fmt::format(" It will feel right: the {:.2f} % that is not felt is too little to be noticed.", missed_pct);
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const FittedObject& fitted) {

@@ -47,9 +47,9 @@ void KioskKeeper::tick(GatewaySite& site, std::int64_t now, TimePoint at) {
   Operations& operations = site.operations();
   if (auto tidied = operations.change(without_ended(operations.state(), now)); !tidied) log::error(tidied.error());
   for (const std::string& kiosk : site.kiosks()) {
-    const KioskWish wish = wish_of(operations.state(), kiosk, now);
-    lead_home(site, kiosk, wish);
-    keep_displays(site, kiosk, wish, at);
+    const KioskTarget target = target_of(operations.state(), kiosk, now);
+    lead_home(site, kiosk, target);
+    keep_displays(site, kiosk, target, at);
   }
   wake_kiosks(site, now, at);
   take_back(site, now, at);
@@ -57,11 +57,11 @@ void KioskKeeper::tick(GatewaySite& site, std::int64_t now, TimePoint at) {
 }
 
 /// A visit ends politely where its kiosk gets a sign: the kiosk goes home.
-void KioskKeeper::lead_home(GatewaySite& site, const std::string& kiosk, const KioskWish& wish) {
+void KioskKeeper::lead_home(GatewaySite& site, const std::string& kiosk, const KioskTarget& target) {
   Kept& kept = kept_[kiosk];
-  if (std::exchange(kept.sign, wish.sign) == wish.sign) return;
-  site.note_own("sign", kiosk + ": " + wish.sign);
-  if (wish.sign == "none") return;
+  if (std::exchange(kept.sign, target.sign) == target.sign) return;
+  site.note_own("sign", kiosk + ": " + target.sign);
+  if (target.sign == "none") return;
   // Nobody visits a dark kiosk. A browser that has just come is not among the displays yet.
   const auto hub = site.hubs().find(kiosk);
   const bool shown = (hub != site.hubs().end() && hub->second->browsers() > 0) ||
@@ -69,9 +69,9 @@ void KioskKeeper::lead_home(GatewaySite& site, const std::string& kiosk, const K
   if (shown) open_at_kiosk(site, kiosk, "", told_if_refused(kiosk + " did not go home"));
 }
 
-void KioskKeeper::keep_displays(GatewaySite& site, const std::string& kiosk, const KioskWish& wish, TimePoint at) {
+void KioskKeeper::keep_displays(GatewaySite& site, const std::string& kiosk, const KioskTarget& target, TimePoint at) {
   const std::vector<client::DisplaySetting> wanted{
-      {"sign", wish.sign}, {"message-el", wish.message_el}, {"message-en", wish.message_en}};
+      {"sign", target.sign}, {"message-el", target.message_el}, {"message-en", target.message_en}};
   for (const client::DisplayStatus& display : site.watch().displays()) {
     if (display.kiosk != kiosk) continue;
     std::vector<client::DisplaySetting> different;
@@ -90,7 +90,7 @@ void KioskKeeper::wake_kiosks(GatewaySite& site, std::int64_t now, TimePoint at)
   const OperationsState& state = site.operations().state();
   for (const auto& [kiosk, mac] : state.hours.wake) {
     Kept& kept = kept_[kiosk];
-    const bool open = wish_of(state, kiosk, now).open;
+    const bool open = target_of(state, kiosk, now).open;
     if (open != std::exchange(kept.open, open)) kept.wakes_left = open ? kWakes : 0;
     if (kept.wakes_left == 0 || at < kept.next_wake) continue;
     --kept.wakes_left;

@@ -13,7 +13,7 @@
 namespace mechane::gateway {
 
 class GatewaySite;
-struct KioskWish;
+struct KioskTarget;
 struct TimedChange;
 
 /// Seconds since 1970.
@@ -39,8 +39,8 @@ class KioskKeeper {
     TimePoint again;
     std::vector<client::DisplaySetting> settings;
   };
-  void lead_home(GatewaySite& site, const std::string& kiosk, const KioskWish& wish);
-  void keep_displays(GatewaySite& site, const std::string& kiosk, const KioskWish& wish, TimePoint at);
+  void lead_home(GatewaySite& site, const std::string& kiosk, const KioskTarget& target);
+  void keep_displays(GatewaySite& site, const std::string& kiosk, const KioskTarget& target, TimePoint at);
   void wake_kiosks(GatewaySite& site, std::int64_t now, TimePoint at);
   void take_back(GatewaySite& site, std::int64_t now, TimePoint at);
   /// Whether nothing is left to do for it; otherwise asks the displays once more.

@@ -185,12 +185,12 @@ HttpAnswer operations_answer(GatewaySite& site) {
     change.erase("before");
   OrderJson kiosks = OrderJson::array();
   for (const std::string& kiosk : site.kiosks()) {
-    const KioskWish wish = wish_of(state, kiosk, now);
+    const KioskTarget target = target_of(state, kiosk, now);
     const HoursPlan* const plan = plan_of(state.hours, kiosk);
     const auto changes = plan == nullptr ? std::nullopt : next_change(*plan, now);
     kiosks.push_back({{"kiosk", kiosk},
-                      {"open", wish.open},
-                      {"sign", wish.sign},
+                      {"open", target.open},
+                      {"sign", target.sign},
                       {"changesAt", changes ? OrderJson(*changes) : OrderJson()}});
   }
   out.update({{"now", now}, {"zone", zone_name(now)}, {"kiosks", kiosks}});

@@ -90,17 +90,17 @@ void ask_device(GatewaySite& site, const std::string& draft, const std::string& 
 
 }  // namespace
 
-Expected<PaceWish> parse_pace(const std::string& body) {
+Expected<PaceRequest> parse_pace(const std::string& body) {
   const PaceJson json = PaceJson::parse(body, nullptr, false);
   if (json.is_object() && json.size() == 1) {
     const auto pace = json.find("pace"), ticks = json.find("ticks");
     if (pace != json.end() && pace->is_number() && pace->get<double>() >= 0 && pace->get<double>() <= 1)
-      return PaceWish{pace->get<double>(), 0};
+      return PaceRequest{pace->get<double>(), 0};
     if (ticks != json.end() && ticks->is_number_unsigned() && ticks->get<std::uint64_t>() >= 1 &&
         ticks->get<std::uint64_t>() <= kMostTicks)
-      return PaceWish{1, ticks->get<std::uint32_t>()};
+      return PaceRequest{1, ticks->get<std::uint32_t>()};
   }
-  return fail(ErrorCode::invalid_value, "this is neither a pace nor a number of ticks", {},
+  return fail(ErrorCode::invalid_value, "a pace or a number of ticks is missing, or out of range", {},
               R"(send {"pace": 0 to 1} or {"ticks": 1 to 10000})");
 }
 

@@ -20,12 +20,12 @@ void answer_preview_post(GatewaySite& site, const std::string& draft, const std:
                          const Site::Done& done);
 
 /// {"pace": 0..1} or {"ticks": 1..10000}.
-struct PaceWish {
+struct PaceRequest {
   double pace = 1;
   std::uint32_t ticks = 0;  ///< 0: a pace
 };
 /// Errors: invalid_value.
-[[nodiscard]] Expected<PaceWish> parse_pace(const std::string& body);
+[[nodiscard]] Expected<PaceRequest> parse_pace(const std::string& body);
 /// {"visit": NAME}; the name may be empty. Errors: invalid_value.
 [[nodiscard]] Expected<std::string> parse_visit_order(const std::string& body);
 

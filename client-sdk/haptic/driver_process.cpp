@@ -20,6 +20,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// What the drivers count is what the wire counts.
+static_assert(MECHANE_FINGERS == hand::kFingers && MECHANE_HAND_JOINTS == hand::kHandJoints);
+
 constexpr int kOpenMs = 30'000;        // some devices are sent their firmware first
 constexpr Duration kLostAfter = 50ms;  // without a state
 constexpr Duration kHangsAfter = 2s;

@@ -17,7 +17,7 @@ std::optional<LinkNews::Line> LinkNews::look(LinkState state, const std::string&
     return Line{
         log::Level::warning,
         fmt::format("no server answers in {}: start one, or correct --domain or CYCLONEDDS_URI ('mechane doctor' "
-                    "tells what is wrong here)",
+                    "finds what is wrong on this machine)",
                     domain_)};
   }
   if (same) return {};

@@ -87,7 +87,8 @@ Expected<void> choose_device(Arguments& a) {
   auto choice = haptic::read_virtual_options(name.options);
   if (!choice) return tl::unexpected(choice.error());
   if (!choice->stylus.hand)
-    return fail(ErrorCode::conflict, "nobody would move the stylus", a.device, "leave hand=off out");
+    return fail(ErrorCode::conflict, "with hand=off the visitor cannot move the stylus", a.device,
+                "leave hand=off out");
   a.options.device = *choice;
   a.options.player = visitor::fitted(a.options.player, *choice);
   return {};

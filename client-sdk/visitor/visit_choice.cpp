@@ -43,6 +43,9 @@ Expected<std::vector<const VisitDescription*>> choose_visits(const VisitOptions&
   }
   for (const std::string& name : options.activities) {
     const ActivityId id = world.find_activity(name);
+    if (!id && std::ranges::find(world.visits, name, &VisitDescription::name) != world.visits.end())
+      return fail(ErrorCode::unknown_name, fmt::format("'{}' is a visit, not an activity", name), file,
+                  fmt::format("write --visit {}", name));
     auto found = choose("visit of an activity", name, [&](const auto& visit) { return id && visit.activity == id; });
     if (!found) return tl::unexpected(found.error());
   }

@@ -50,10 +50,10 @@ Expected<JointSwitch> JointSwitch::create(const Build& build, state::JointKind k
   if (!names.viscous.empty()) out.viscous_ = p.number(names.viscous) * build.description.effort_scale;
   if (names.least.empty()) return out;
   if (p.given(names.least) != p.given(names.most))
-    return fail(
-        ErrorCode::missing, fmt::format("only one of {} and {} is given", names.least, names.most),
-        build.place(p.given(names.least) ? names.least : names.most),
-        kind == state::JointKind::hinge ? "give both, or none for a hinge that turns on and on" : "give both, or none");
+    return fail(ErrorCode::missing, fmt::format("only one of {} and {} is given", names.least, names.most),
+                build.place(p.given(names.least) ? names.least : names.most),
+                kind == state::JointKind::hinge ? "give both, or neither for a hinge that turns without end"
+                                                : "give both, or neither");
   out.limited_ = p.given(names.least);
   out.min_ = p.number(names.least);
   out.max_ = p.number(names.most);

@@ -107,7 +107,7 @@ constexpr state::ParameterType kLitParameters[] = {
      .reference = state::Reference::body},
     {.name = "flame",
      .kind = ParameterKind::text,
-     .summary = "what brings the fire: a body that is hidden brings none",
+     .summary = "the body that brings the fire; while it is hidden, it lights nothing",
      .required = true,
      .reference = state::Reference::body},
     state::point("at", "where it catches fire, in its frame"),

@@ -230,7 +230,7 @@ void Server::Impl::follow(const std::string& line) {
   const auto order = parse_pace_order(line);
   if (!order) return log::warning(order.error().to_string());
   if (order->ticks > 0 && pace_ != 0)
-    return log::warning("'" + line + "' does nothing: time runs; write 'pace 0' first");
+    return log::warning("'" + line + "' has no effect while time runs; write 'pace 0' first");
   if (order->ticks == 0) pace_ = order->pace;
   for (const auto& loop : loops_)
     if (!loop->order(*order)) log::warning("'" + line + "' is lost: too many orders at a time");

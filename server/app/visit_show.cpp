@@ -70,7 +70,7 @@ Expected<void> wait_for_somebody(Stage& stage, const state::WorldState& state, C
   const TimePoint until = clock.now() + kSomebodyComesWithin;
   for (TimePoint now = clock.now(); !stage.poll(now); now = clock.now()) {
     if (now > until)
-      return fail(ErrorCode::timed_out, "nobody came to see the visit", {}, "start it from the console again");
+      return fail(ErrorCode::timed_out, "no display joined the visit in time", {}, "start it from the console again");
     stage.forget_what_came(now);
     stage.publish(state);
     clock.sleep_until(now + kPollEvery);

@@ -97,10 +97,9 @@ Expected<std::vector<std::byte>> read_whole(const fs::path& file, std::uintmax_t
   if (error == std::errc::no_such_file_or_directory)
     return fail(ErrorCode::not_found, "does not exist", file.string(), "check its name and folder");
   if (!error && size > most_bytes) {
-    return fail(
-        ErrorCode::too_large,
-        "has " + std::to_string(size) + " bytes, more than the " + std::to_string(most_bytes) + " that are read",
-        file.string(), "check that it is the right file");
+    return fail(ErrorCode::too_large,
+                "has " + std::to_string(size) + " bytes; at most " + std::to_string(most_bytes) + " are allowed",
+                file.string(), "check that it is the right file");
   }
   std::vector<std::byte> bytes(error ? 0 : size);
   errno = 0;

@@ -192,7 +192,7 @@ std::optional<Sheets> fit_two(std::span<const SheetSample> samples, double block
   return std::nullopt;
 }
 
-/// All ways in which three faces can meet: in a tip, in a nook, or an edge that runs into a third face.
+/// All ways in which three faces can meet: in an outer corner, in an inner corner, or as an edge that runs into a third face.
 std::optional<Sheets> fit_three(std::span<const SheetSample> samples, double block_m,
                                 std::array<const SheetSample*, 3> faces) {
   for (int turn = 0; turn < 3; ++turn) {

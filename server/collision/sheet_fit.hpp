@@ -21,7 +21,7 @@ struct SheetSample {
 };
 
 /// Distances to two or three faces, each trilinear over the block, by their values at its corners: x fastest. Together they are
-/// first o (second i third), where o and i take the larger of two (an edge that sticks out) or the lesser (a nook).
+/// first o (second i third), where o and i take the larger of two (an edge that sticks out) or the lesser (an inner corner).
 struct Sheets {
   int count = 2;
   std::array<std::array<double, 8>, 3> values_m{};

@@ -51,15 +51,15 @@ struct Cell {
 };
 
 /// What a cell became.
-struct Made {
+struct BuiltCell {
   enum class Kind { air, leaf, split } kind = Kind::air;
   DistanceField::Leaf leaf;
-  std::vector<Made> children;
+  std::vector<BuiltCell> children;
 };
 
 /// A cell of the coarsest kind.
-struct MadeCube {
-  Made made;
+struct BuiltCube {
+  BuiltCell cell;
   double made_up_m = 0;  // how far outside places lie that it tells to be inside
 };
 
@@ -269,9 +269,9 @@ class CellMaker {
 
   [[nodiscard]] bool is_too_large() const { return slots_ > most_slots_; }
 
-  [[nodiscard]] MadeCube make(const Cell& cell, std::span<const Probe> witnesses_B) {
-    MadeCube cube;
-    cube.made = make_cell(cell, {witnesses_B.begin(), witnesses_B.end()}, cube.made_up_m);
+  [[nodiscard]] BuiltCube make(const Cell& cell, std::span<const Probe> witnesses_B) {
+    BuiltCube cube;
+    cube.cell = make_cell(cell, {witnesses_B.begin(), witnesses_B.end()}, cube.made_up_m);
     return cube;
   }
 
@@ -332,30 +332,30 @@ class CellMaker {
     return other < worst ? std::pair(*edges, other) : std::pair(leaf, worst);
   }
 
-  [[nodiscard]] Made make_cell(const Cell& cell, std::vector<Probe> witnesses_B, double& made_up_m) {
-    Made made;
-    if (is_too_large() || is_far_off(cell)) return made;
+  [[nodiscard]] BuiltCell make_cell(const Cell& cell, std::vector<Probe> witnesses_B, double& made_up_m) {
+    BuiltCell built;
+    if (is_too_large() || is_far_off(cell)) return built;
     const Samples samples = sampler_.sample(cell);
     const double block_m = sampler_.block_m();
     // If two places are close together and both far from the surface, there is no surface between them.
     const auto is_off = [&](const SheetSample& s) { return s.distance_m > kNoCloser * cell.edge * block_m; };
-    if (std::all_of(samples.begin(), samples.end(), is_off)) return made;
+    if (std::all_of(samples.begin(), samples.end(), is_off)) return built;
     const Samples judges = judges_of(cell, samples, witnesses_B);
     double worst = 0;
-    std::tie(made.leaf, worst) = fit(cell, samples, judges);
+    std::tie(built.leaf, worst) = fit(cell, samples, judges);
     if (worst > 1 && cell.level < collision::kFieldLevels) {
-      made.kind = Made::Kind::split;
+      built.kind = BuiltCell::Kind::split;
       if (cell.level >= 0) slots_ += 2;  // eight words
       for (int i = 0; i < DistanceField::kChildren; ++i)
-        made.children.push_back(make_cell(cell.child(i), witnesses_B, made_up_m));
-      return made;
+        built.children.push_back(make_cell(cell.child(i), witnesses_B, made_up_m));
+      return built;
     }
-    made.kind = Made::Kind::leaf;
-    slots_ += made.leaf.has_sheets ? 2 : 1;
+    built.kind = BuiltCell::Kind::leaf;
+    slots_ += built.leaf.has_sheets ? 2 : 1;
     for (const SheetSample& s : judges) {
-      if (s.distance_m > 0 && made.leaf.at(s.p_B) < 0) made_up_m = std::max(made_up_m, s.distance_m);
+      if (s.distance_m > 0 && built.leaf.at(s.p_B) < 0) made_up_m = std::max(made_up_m, s.distance_m);
     }
-    return made;
+    return built;
   }
 
   const Sampler& sampler_;
@@ -373,13 +373,13 @@ class Writer {
   explicit Writer(DistanceField::Data& data) : data_(data) { data_.slots.emplace_back(); }
 
   /// Of a cell that is a block or more.
-  void put(const Cell& cell, const Made& made) {
-    if (cell.level < 0 && made.kind == Made::Kind::split) {
+  void put(const Cell& cell, const BuiltCell& built) {
+    if (cell.level < 0 && built.kind == BuiltCell::Kind::split) {
       for (int i = 0; i < DistanceField::kChildren; ++i)
-        put(cell.child(i), made.children[static_cast<std::size_t>(i)]);
+        put(cell.child(i), built.children[static_cast<std::size_t>(i)]);
       return;
     }
-    const std::uint64_t word = word_of(made, -cell.level);
+    const std::uint64_t word = word_of(built, -cell.level);
     if (word == 0) return;
     const collision::Node low{static_cast<int>(cell.low.x()), static_cast<int>(cell.low.y()),
                               static_cast<int>(cell.low.z())};
@@ -394,13 +394,13 @@ class Writer {
   }
 
  private:
-  [[nodiscard]] std::uint32_t word_of(const Made& made, int span = 0) {
-    if (made.kind == Made::Kind::air) return 0;
-    if (made.kind == Made::Kind::leaf) return DistanceField::leaf_word(slot_of(made.leaf), span);
+  [[nodiscard]] std::uint32_t word_of(const BuiltCell& built, int span = 0) {
+    if (built.kind == BuiltCell::Kind::air) return 0;
+    if (built.kind == BuiltCell::Kind::leaf) return DistanceField::leaf_word(slot_of(built.leaf), span);
     const std::size_t first = data_.children.size();
-    data_.children.resize(first + made.children.size());
-    for (std::size_t i = 0; i < made.children.size(); ++i) {
-      const std::uint32_t word = word_of(made.children[i]);
+    data_.children.resize(first + built.children.size());
+    for (std::size_t i = 0; i < built.children.size(); ++i) {
+      const std::uint32_t word = word_of(built.children[i]);
       data_.children[first + i] = word;
     }
     return DistanceField::split_word(first);
@@ -477,9 +477,9 @@ std::optional<DistanceField> build_field(const FieldSource& source, const Distan
       std::min((at_most - fixed) / sizeof(DistanceField::Slot), DistanceField::kMaxSlots / 2);
   const auto planes = make_planes(sampler, BoundingPlanes(in_blocks(source, grid)), grid);
   CellMaker maker(sampler, grid, planes, needs, most_slots);
-  std::vector<MadeCube> made(cubes.size());
-  for_each_index(made.size(), [&](std::size_t i) {
-    if (!maker.is_too_large()) made[i] = maker.make(cubes.cell(i), sorted[i]);
+  std::vector<BuiltCube> built(cubes.size());
+  for_each_index(built.size(), [&](std::size_t i) {
+    if (!maker.is_too_large()) built[i] = maker.make(cubes.cell(i), sorted[i]);
   });
   if (maker.is_too_large()) return std::nullopt;
   DistanceField::Data data;
@@ -488,9 +488,9 @@ std::optional<DistanceField> build_field(const FieldSource& source, const Distan
     data.entries.push_back(plane.packed());
   Writer writer(data);
   double made_up_m = 0;
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    writer.put(cubes.cell(i), made[i].made);
-    made_up_m = std::max(made_up_m, made[i].made_up_m);
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    writer.put(cubes.cell(i), built[i].cell);
+    made_up_m = std::max(made_up_m, built[i].made_up_m);
   }
   data.slack_m =
       static_cast<float>(std::min(kMoreSlack * made_up_m + kLeastSlack * sampler.block_m(), sampler.block_m()));

@@ -23,7 +23,7 @@ std::size_t end_of_word(std::string_view text, std::size_t at) {
 std::vector<FormulaName> names_in_formula(std::string_view text) {
   std::vector<FormulaName> names;
   for (std::size_t at = 0; at < text.size();) {
-    // The letters of "1e3" are no word.
+    // The "e3" of "1e3" is not a name.
     const bool digit = text[at] >= '0' && text[at] <= '9';
     const std::size_t end = std::max(end_of_word(text, at), at + 1);
     if (!digit && starts_word(text[at]) && end + 1 < text.size() && text[end] == '.' && starts_word(text[end + 1])) {

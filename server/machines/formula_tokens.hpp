@@ -61,7 +61,7 @@ class FormulaTokens {
   void refuse(ErrorCode code, std::size_t at, const std::string& what, std::string remedy);
   /// From there to the end of the token before this one.
   [[nodiscard]] std::string_view piece(std::size_t from) const;
-  /// What stands after a number and is no operator: a unit, right or wrong.
+  /// The text after a number up to the next operator: a unit, known or not.
   std::string unit_text();
 
   const FormulaText& text_;

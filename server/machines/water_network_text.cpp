@@ -332,7 +332,7 @@ class NetworkReader {
     for (const state::BodyDescription& each : build_.description.bodies) {
       if (!each.fixed) bodies.push_back(each.name + ".body");
     }
-    refuse(ErrorCode::unknown_name, fmt::format("'{}' is no body that can move", value),
+    refuse(ErrorCode::unknown_name, fmt::format("'{}' is not a movable body", value),
            suggest(value, bodies, "add a body that is not fixed") + "; it is written like FLOAT.body");
     return {};
   }

@@ -166,7 +166,7 @@ bool JournalReader::next_frame() {
   if (frame.kind != FrameKind::close) return true;
   good_offset_ += frame_size_;
   if (in_->peek() == std::char_traits<char>::eof()) return stop(JournalEnd::Kind::closed, {});
-  return stop(JournalEnd::Kind::damaged, fmt::format("the journal goes on after its close, at byte {}", good_offset_));
+  return stop(JournalEnd::Kind::damaged, fmt::format("data after the closing record, at byte {}", good_offset_));
 }
 
 bool JournalReader::take_ticks(std::vector<std::byte> payload) {

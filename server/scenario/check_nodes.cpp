@@ -39,7 +39,7 @@ std::optional<Aside> aside_of(const x3d::Schema& x3d, const x3d::NodeType& type)
   if (is("X3DNBodyCollidableNode") || is("X3DNBodyCollisionSpaceNode") || is("CollisionCollection"))
     return Aside{"not simulated", "put a CollidableShape into the geometry of a RigidBody"};
   if (type.name == "ROUTE" || (x3d::find_event_type(type.name) != nullptr && type.name != "Transform"))
-    return Aside{"not simulated, for it leads to nothing that is",
+    return Aside{"not simulated, because its target is not simulated",
                  "lead it to a Transform with shapes, to a RigidBody with fixed='true', or to a node that runs"};
   if (is("X3DSensorNode") || is("X3DScriptNode") || is("X3DInterpolatorNode") || is("X3DFollowerNode") ||
       is("X3DTriggerNode") || is("X3DSequencerNode"))

@@ -46,7 +46,7 @@ bool is_whole(Compilation& c, const Fields& fields, std::string_view key) {
   const double number = fields.number(key);
   if (number == std::floor(number)) return true;
   c.problems.error(ErrorCode::invalid_value, fields.line(key), fields.where(),
-                   fmt::format("{} is {}, which is no whole number", key, number), "write a whole number");
+                   fmt::format("{} is {}; it must be a whole number", key, number), "write a whole number");
   return false;
 }
 

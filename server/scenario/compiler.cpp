@@ -70,7 +70,8 @@ void take_plain_file(Compilation& c) {
     return;
   }
   c.problems.warning(ErrorCode::missing, line, "WorldInfo",
-                     "the file has no 'mechane:scenario': it is a scene with nothing to do in it", remedy);
+                     "the file has no 'mechane:scenario': visitors can look at the scene, but have no task in it",
+                     remedy);
   const std::string stem = c.document.path().stem().string();
   c.world.id = is_id(stem) ? stem : "scene";
   c.world.languages = {"en"};

@@ -18,15 +18,15 @@ std::string_view words_of(ExhibitFault fault) {
     case ExhibitFault::not_for_us:
       return "it is for another server, or for a former run of this one";
     case ExhibitFault::no_key:
-      return "this server takes none: it has no key";
+      return "this server takes no requests about exhibits: it has no key";
     case ExhibitFault::forged:
-      return "its seal is not of this server's key";
+      return "it was sealed with a different key";
     case ExhibitFault::late:
       return "another request came first";
     case ExhibitFault::replayed:
       return "it was taken before";
     case ExhibitFault::bad_value:
-      return "there is no such verb, or no exhibit can have this name";
+      return "unknown verb, or a name that an exhibit cannot have";
   }
   return "";
 }

@@ -31,7 +31,7 @@ enum class ExhibitFault : std::uint8_t {
   replayed,    ///< taken before
   bad_value    ///< sealed, but with a verb or a name that cannot be
 };
-/// For the log: "its seal is not of this server's key".
+/// For the log: "it was sealed with a different key".
 [[nodiscard]] std::string_view words_of(ExhibitFault fault);
 
 /// Takes a request once, and only with a seal of the key. One thread.

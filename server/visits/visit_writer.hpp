@@ -39,9 +39,9 @@ struct VisitWriterStatus {
 /// One thread may call put() and take_unfinished(). They do not wait for the disk, but allocate: it must not be a loop's thread.
 class VisitWriter {
  public:
-  /// Opens the file and reads which visits the last server left unfinished: this waits for the disk. A file that cannot be used is no
-  /// error, but logged: a damaged one is set aside and a new one begun; another program's is left alone, and no records are written; where
-  /// the disk is full, it tries again later. Errors: failed_process (the thread).
+  /// Opens the file and reads which visits the last server left unfinished: this waits for the disk. A file that cannot be used is
+  /// logged, and not an error: a damaged one is set aside and a new one begun; another program's is left alone, and no records are written;
+  /// where the disk is full, it tries again later. Errors: failed_process (the thread).
   [[nodiscard]] static Expected<std::unique_ptr<VisitWriter>> create(const VisitWriterConfig& config);
   /// Writes what is still in the queue, without a second try.
   ~VisitWriter();

@@ -10,6 +10,7 @@
 namespace mechane::x3d {
 namespace {
 
+constexpr std::size_t kMostShown = 80;  // bytes of an author's text in a remedy
 constexpr std::string_view kBlanks = " \t\r\n,";
 
 tl::unexpected<BadValue> bad(std::string what, std::string remedy) {
@@ -64,6 +65,41 @@ bool has_quotes(std::string_view text) {
                      [&](std::string_view quote) { return text.find(quote) != std::string_view::npos; });
 }
 
+/// Writes each quote, of any kind, as a straight double one.
+std::string with_straight_quotes(std::string_view text) {
+  std::string straight;
+  while (!text.empty()) {
+    const auto* const quote =
+        std::find_if(std::begin(kQuotes), std::end(kQuotes), [&](std::string_view q) { return text.starts_with(q); });
+    const bool is_quote = quote != std::end(kQuotes);
+    straight += is_quote ? '"' : text.front();
+    text.remove_prefix(is_quote ? quote->size() : 1);
+  }
+  return straight;
+}
+
+/// Cuts blanks and then a string in straight quotes off the front. None where no such string is there: then only the blanks.
+std::optional<std::string> take_string(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  if (text.empty() || text.front() != '"') return std::nullopt;
+  std::string value;
+  for (std::size_t at = 1; at < text.size(); ++at) {
+    if (text[at] == '"') {
+      text.remove_prefix(at + 1);
+      return value;
+    }
+    if (text[at] == '\\' && at + 1 < text.size()) ++at;
+    value += text[at];
+  }
+  return std::nullopt;
+}
+
+bool is_strings(std::string_view text) {
+  while (take_string(text)) {
+  }
+  return text.empty();
+}
+
 }  // namespace
 
 DecimalCommas decimal_commas(std::string_view text) {
@@ -88,9 +124,14 @@ std::optional<BadValue> comma_fault(const DecimalCommas& commas, std::size_t cou
 }
 
 std::string in_straight_quotes(std::string_view attribute, std::string_view text) {
-  const std::string_view bare = without_quotes(text);
-  const bool plain = bare.size() <= 40 && !has_quotes(bare);
-  return fmt::format("{}='\"{}\"'", attribute, plain ? bare : "...");
+  std::string_view rest = text;
+  while (take_string(rest)) {
+  }
+  const std::string_view good = text.substr(0, text.size() - rest.size());
+  const std::string_view bare = without_quotes(rest);
+  std::string mended = has_quotes(bare) ? with_straight_quotes(rest) : fmt::format("\"{}\"", bare);
+  if (good.size() + mended.size() > kMostShown || !is_strings(mended)) return fmt::format("{}='\"...\"'", attribute);
+  return fmt::format("{}='{}{}'", attribute, good, mended);
 }
 
 bool is_relative_path(std::string_view url) {
@@ -137,28 +178,16 @@ Value<std::vector<bool>> parse_booleans(std::string_view text) {
 }
 
 Value<std::vector<std::string>> parse_strings(std::string_view text) {
+  const std::string_view whole = text;
   std::vector<std::string> values;
-  for (;;) {
-    const std::size_t begin = text.find_first_not_of(kBlanks);
-    if (begin == std::string_view::npos) return values;
-    if (text[begin] != '"') {
-      const std::string_view rest = text.substr(begin);
-      return bad(static_cast<unsigned char>(rest.front()) >= 0x80 && without_quotes(rest).size() < rest.size()
-                     ? "a string is in curly quotes, not in straight ones"
-                     : "a string is not in quotes",
-                 "write " + in_straight_quotes("value", rest));
-    }
-    text.remove_prefix(begin + 1);
-    std::string value;
-    while (!text.empty() && text.front() != '"') {
-      if (text.front() == '\\' && text.size() > 1) text.remove_prefix(1);
-      value += text.front();
-      text.remove_prefix(1);
-    }
-    if (text.empty()) return bad("a string has no closing quote", "write value='\"...\"'");
-    text.remove_prefix(1);
-    values.push_back(std::move(value));
-  }
+  while (auto value = take_string(text))
+    values.push_back(std::move(*value));
+  if (text.empty()) return values;
+  const bool curly = static_cast<unsigned char>(text.front()) >= 0x80 && without_quotes(text).size() < text.size();
+  return bad(text.front() == '"' ? "a string has no closing quote"
+             : curly             ? "a string is in curly quotes, not in straight ones"
+                                 : "a string is not in quotes",
+             "write " + in_straight_quotes("value", whole));
 }
 
 }  // namespace mechane::x3d

@@ -29,7 +29,7 @@ struct DecimalCommas {
 /// Where decimal commas explain why there are more numbers than wanted: the fault, and what to write.
 [[nodiscard]] std::optional<BadValue> comma_fault(const DecimalCommas& commas, std::size_t count, std::size_t wanted);
 
-/// How to write a text that is not in straight double quotes: attribute='"text"', without its curly quotes.
+/// How to write texts that are not all in straight double quotes: attribute='"text" "text"'; "..." for a long or muddled text.
 [[nodiscard]] std::string in_straight_quotes(std::string_view attribute, std::string_view text);
 
 /// Numbers separated by blanks or commas, all finite.

@@ -156,7 +156,7 @@ def include_fault(room: str, path: Path, name: str, quoted: bool) -> tuple[str, 
     other = room_of_include(name)
     if other is not None:
         if other not in ARROWS:
-            return "arrow", f"{other} is no room of the table in includes.py"
+            return "arrow", f"{other} is not a room in the table of includes.py"
         if name.startswith(OWN_PROGRAMS) and not str(path).startswith(OWN_PROGRAMS):
             return "arrow", f'"{name}" belongs to a program of its own, which runs apart from this one'
         if not may_include(room, other):
@@ -231,7 +231,7 @@ def check(root: Path) -> list[Fault]:
     for path in cpp_files(root, "server", "proto", "client-sdk"):
         room = room_of_file(path)
         if room not in ARROWS:
-            faults.append(Fault("arrow", str(path), 1, f"{room} is no room: add it to the table in includes.py and to ARCHITECTURE.md"))
+            faults.append(Fault("arrow", str(path), 1, f"{room} is not a room: add it to the table in includes.py and to ARCHITECTURE.md"))
             continue
         text = without_comments(read(root / path))
         for match in _INCLUDE.finditer(text):

@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto state = parse_operations(text); is_read(state)) {
     const auto again = parse_operations(operations_text(*state));
     must_hold(again && *again == *state);
-    must_hold(wish_of(*state, "kiosk-1", kNow).message_en.size() <= 240);
+    must_hold(target_of(*state, "kiosk-1", kNow).message_en.size() <= 240);
   }
   if (const auto end = parse_end(text, kNow); is_read(end)) must_hold(!*end || **end > kNow);
   if (const auto message = parse_visitor_message(text, kNow); is_read(message)) must_hold(!message->texts.empty());

@@ -354,7 +354,7 @@ class Paced(EndToEnd):
         order("pace 2")
         wait_until(lambda: "'pace 2' is not an order" in server.text(), 20, "a bad line is told")
         order("step 5")
-        wait_until(lambda: "'step 5' does nothing: time runs" in server.text(), 20, "a step that has no effect is told")
+        wait_until(lambda: "'step 5' has no effect while time runs" in server.text(), 20, "a step that has no effect is told")
 
         order("pace 0")
         tick = still_tick(browser)

@@ -135,7 +135,7 @@ Fault CyberGrasp::look() {
 }
 
 Fault CyberGrasp::look_at_mode() {
-  if (grasp_.get_mode(glove_, &mode_) != 0) return lost("the CyberGrasp does not tell its mode");
+  if (grasp_.get_mode(glove_, &mode_) != 0) return lost("the CyberGrasp does not report its mode");
   const auto now = Clock::now();
   if (mode_ == MECHANE_GRASP_FORCE) force_at_ = now;
   if (now - force_at_ <= kGraspSilence) return {};

@@ -107,7 +107,7 @@ Fault Haply::choose_key(std::size_t choice) {
   std::string body;
   if (Fault fault = link_->ask_version(body); !fault.empty()) return fault;
   const auto version = parse_haply_version(body);
-  if (!version) return where_ + " does not tell its version; give the option key=values (3.1) or key=vector (3.5)";
+  if (!version) return where_ + " does not report its version; give the option key=values (3.1) or key=vector (3.5)";
   if (*version < std::pair(3, 1))
     return where_ + " has version " + std::to_string(version->first) + "." + std::to_string(version->second) +
            ", which speaks another format; install 3.1 or later";

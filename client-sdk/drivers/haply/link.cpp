@@ -113,7 +113,7 @@ std::string HaplyLink::ask_version(std::string& body) {
   if (!error)
     error =
         wire_->await(stream, kConnect, [&](auto done) { http::async_read(stream, buffer, answer, std::move(done)); });
-  if (error) return wire_->fault("does not tell its version", error) + "; give the option key=values or key=vector";
+  if (error) return wire_->fault("does not report its version", error) + "; give the option key=values or key=vector";
   body = answer.body();
   return {};
 }

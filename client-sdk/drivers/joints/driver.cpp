@@ -24,8 +24,8 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPace = 40ms;     // read() waits so long for a hand; a state that is 50 ms old is a lost device
-constexpr auto kFresh = 100ms;   // a hand is of now; and a datagram with a lower number is late, and not a new sender's
-constexpr auto kLetsGo = 500ms;  // a hand that is not tracked opens, and holds nothing in a place where it is no more
+constexpr auto kFresh = 100ms;   // how long a hand is current: a lower number is then a late datagram, not a new sender
+constexpr auto kLetsGo = 500ms;  // a hand that is not tracked for so long opens: it must not hold on where it was last
 constexpr auto kNextVisitor = 5s;  // a hand that comes after such a pause may be another person's
 constexpr int kAtOnce = 64;        // datagrams
 constexpr int kMalformedInARow = 50;

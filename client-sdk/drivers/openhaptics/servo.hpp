@@ -61,7 +61,7 @@ class Heat {
 [[nodiscard]] double warmest(std::span<const double> temperatures) noexcept;
 
 /// Converts a sample to SI, with the origin at `centre_mm` of the library's frame. False when the sample holds numbers
-/// that no such device can have: not finite, further than 2 m away, or a transform that is no rotation.
+/// that no such device can have: not finite, further than 2 m away, or a matrix that is not a rotation.
 [[nodiscard]] bool convert(const Sample& sample, const Traits& traits, std::span<const double, 3> centre_mm,
                            mechane_device_state& state) noexcept;
 

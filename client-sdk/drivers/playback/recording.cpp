@@ -34,7 +34,8 @@ const char* fault_of(std::span<const double> n) {
     return "a position over 100 m";
   if (!(squared > 0.99 && squared < 1.01)) return "a rotation that is not a unit quaternion";
   if (n[8] < 0 || n[8] > 1) return "a grasp outside 0 to 1";
-  if (n[9] < 0 || n[9] > kMostButtons || n[9] != std::floor(n[9])) return "buttons that are no whole number";
+  if (n[9] < 0 || n[9] > kMostButtons || n[9] != std::floor(n[9]))
+    return "buttons that are not a whole number, or out of range";
   return "";
 }
 

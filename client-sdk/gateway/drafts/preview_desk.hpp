@@ -71,8 +71,8 @@ class PreviewDesk {
   /// Errors: conflict (nothing runs, or time does not stand still), failed_process.
   [[nodiscard]] Expected<void> set_pace(const std::string& draft, double pace);
   [[nodiscard]] Expected<void> step(const std::string& draft, std::uint32_t ticks);
-  /// A scripted visitor comes, in the place of one who is there, and time runs as in the museum. Without a name he goes. Errors: conflict
-  /// (nothing runs), unknown_name (a visit that what runs does not have), failed_process.
+  /// A scripted visitor comes, in the place of one who is there, and time runs as in the museum. Without a name the visitor leaves.
+  /// Errors: conflict (nothing runs), unknown_name (the running exhibit has no such visit), failed_process.
   [[nodiscard]] Expected<void> play(const std::string& draft, const std::string& visit);
   /// The draft as it is now has been laid out in the place of the one that runs, beginning at the same step: its server goes on with it
   /// from where it is, or says what keeps it from that. Errors: conflict (nothing runs, or a visitor plays), failed_process.

@@ -79,8 +79,8 @@ bool is_date(std::string_view text) {
 
 Expected<OpenSpan> parse_span(const HoursJson& json, const std::string& field) {
   const auto wrong = [&field] {
-    return wrong_hours("this is not a span of hours within a day", field,
-                       "write \"10:00-18:00\"; what goes past midnight ends at 24:00 and goes on the next day");
+    return wrong_hours("these are not opening hours within one day", field,
+                       "write \"10:00-18:00\"; split hours past midnight: to 24:00, then from 00:00 the next day");
   };
   if (!json.is_string()) return wrong();
   const auto& text = json.get_ref<const std::string&>();

@@ -211,27 +211,27 @@ bool in_maintenance(const OperationsState& state, const std::string& kiosk, std:
   return found != state.maintenance.end() && (!found->second || *found->second > now);
 }
 
-KioskWish wish_of(const OperationsState& state, const std::string& kiosk, std::int64_t now) {
-  KioskWish wish;
+KioskTarget target_of(const OperationsState& state, const std::string& kiosk, std::int64_t now) {
+  KioskTarget target;
   const HoursPlan* const plan = plan_of(state.hours, kiosk);
-  wish.open = plan == nullptr || is_open(*plan, now);
-  if (!wish.open) wish.sign = "closed";
-  if (in_maintenance(state, kiosk, now)) wish.sign = "maintenance";
+  target.open = plan == nullptr || is_open(*plan, now);
+  if (!target.open) target.sign = "closed";
+  if (in_maintenance(state, kiosk, now)) target.sign = "maintenance";
   for (const VisitorMessage& message : state.messages) {  // the newest one counts
     if (message.until <= now || !is_for(message, kiosk)) continue;
     const auto text = [&message](const char* language) {
       const auto found = message.texts.find(language);
       return found == message.texts.end() ? std::string() : found->second;
     };
-    wish.message_el = text("el");
-    wish.message_en = text("en");
+    target.message_el = text("el");
+    target.message_en = text("en");
   }
-  const bool silent = wish.message_el.empty() && wish.message_en.empty();
-  if (silent && wish.open && plan != nullptr && !is_open(*plan, now + kSoon_s)) {
-    wish.message_el = "Κλείνουμε σε λιγότερο από δέκα λεπτά.";
-    wish.message_en = "We close in less than ten minutes.";
+  const bool silent = target.message_el.empty() && target.message_en.empty();
+  if (silent && target.open && plan != nullptr && !is_open(*plan, now + kSoon_s)) {
+    target.message_el = "Κλείνουμε σε λιγότερο από δέκα λεπτά.";
+    target.message_en = "We close in less than ten minutes.";
   }
-  return wish;
+  return target;
 }
 
 Expected<void> add_change(OperationsState& state, TimedChange change) {

@@ -58,13 +58,13 @@ struct OperationsState {
 [[nodiscard]] Expected<VisitorMessage> parse_visitor_message(std::string_view json, std::int64_t now);
 
 /// What the displays of a kiosk should show now, as settings by name.
-struct KioskWish {
+struct KioskTarget {
   bool open = true;           ///< by the opening hours
   std::string sign = "none";  ///< none, closed, maintenance
   std::string message_el, message_en;
-  friend bool operator==(const KioskWish&, const KioskWish&) = default;
+  friend bool operator==(const KioskTarget&, const KioskTarget&) = default;
 };
-[[nodiscard]] KioskWish wish_of(const OperationsState& state, const std::string& kiosk, std::int64_t now);
+[[nodiscard]] KioskTarget target_of(const OperationsState& state, const std::string& kiosk, std::int64_t now);
 [[nodiscard]] bool in_maintenance(const OperationsState& state, const std::string& kiosk, std::int64_t now);
 
 /// Adds a change. One of the same kiosk and name is replaced, but what was before it stays: it is that to return to.

@@ -13,7 +13,7 @@ namespace mechane::gateway {
 
 using MacAddress = std::array<std::uint8_t, 6>;
 
-/// "02:00:5e:10:00:01", also with '-' or large letters. None: it is no such address.
+/// "02:00:5e:10:00:01", also with '-' or large letters. Nothing if it is not such an address.
 [[nodiscard]] std::optional<MacAddress> parse_mac(std::string_view text);
 /// Small letters, ':'.
 [[nodiscard]] std::string mac_text(const MacAddress& mac);
@@ -21,7 +21,7 @@ using MacAddress = std::array<std::uint8_t, 6>;
 /// Six bytes of ones, and the address sixteen times.
 [[nodiscard]] std::array<std::uint8_t, 102> magic_packet(const MacAddress& mac);
 
-/// Sends one to `to`, "255.255.255.255:9": never waits. Errors: invalid_value for an address that is none; io_failure.
+/// Sends one to `to`, "255.255.255.255:9": never waits. Errors: invalid_value (not an address), io_failure.
 [[nodiscard]] Expected<void> wake(const MacAddress& mac, const std::string& to);
 
 }  // namespace mechane::gateway

@@ -39,7 +39,7 @@ std::string shown_name(std::string_view name) {
 }
 
 tl::unexpected<Error> no_archive() {
-  return fail(ErrorCode::invalid_value, "this is no zip archive, or it is damaged or cut short", "",
+  return fail(ErrorCode::invalid_value, "this is not a zip archive, or it is damaged or cut short", "",
               "export the exhibit again, and copy all of the file");
 }
 

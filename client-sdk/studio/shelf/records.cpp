@@ -71,9 +71,9 @@ class RecordFields : public RequestFields {
 };
 
 tl::unexpected<Error> damaged_records(const std::string& where) {
-  return fail(
-      ErrorCode::damaged, "the records of the museum's files are damaged", where,
-      "mend catalogue.json in the gateway's folder studio, or move it away: what it says of files is lost then");
+  return fail(ErrorCode::damaged, "the records of the museum's files are damaged", where,
+              "repair catalogue.json in the gateway's folder studio, or move it away: the descriptions, credits and "
+              "tags of files are then lost");
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ Expected<std::string> Shelf::first_text(const std::string& name, const std::stri
   }
   const std::string exhibit = from.starts_with(kFromExhibit) ? from.substr(kFromExhibit.size()) : "";
   if (!is_exhibit_name(exhibit))
-    return fail(ErrorCode::invalid_value, "it is not said what the draft begins as", from,
+    return fail(ErrorCode::invalid_value, "the request does not say what to start the draft from", from,
                 "write exhibit:NAME or template:NAME");
   const auto bytes = read_whole(exhibit_file(exhibit), Draft::kMostBytes);
   if (!bytes && bytes.error().code == ErrorCode::not_found)

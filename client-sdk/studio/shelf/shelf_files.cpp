@@ -162,7 +162,7 @@ ShelfResult<std::string> Shelf::merge(const std::string& name, std::int64_t revi
   if (!opened) return tl::unexpected(opened.error());
   const bool drafted = from.starts_with(kFromDraft);
   if (!drafted && !from.starts_with(kFromExhibit))
-    return shelf_fault({ErrorCode::invalid_value, "it is not said what is added to the draft", from,
+    return shelf_fault({ErrorCode::invalid_value, "the request does not say what to add to the draft", from,
                         "write exhibit:NAME for what is published, or draft:NAME"});
   const std::string other = from.substr(from.find(':') + 1);
   if (other == name)

@@ -201,7 +201,7 @@ class GeometryReader {
     }
     const double index = list[at];
     if (index >= 0 && index < double(size)) return static_cast<std::uint32_t>(index);
-    return fault(ErrorCode::invalid_value, fmt::format("the index {} names none of its {} {}", index, size, of),
+    return fault(ErrorCode::invalid_value, fmt::format("index {} is out of range: there are {} {}", index, size, of),
                  fmt::format("write indices from 0 to {}", size - 1));
   }
 

@@ -98,7 +98,7 @@ TEST(FitSheets, WhatIsNoSheetIsRefused) {
 }
 
 TEST(FitSheets, TellsTheAirNoWiderThanAllowed) {
-  // An edge: out in the air it is nearer than both planes' larger distance would have it, never farther; a nook's is farther.
+  // An edge: out in the air it is nearer than both planes' larger distance would have it, never farther; at an inner corner it is farther.
   auto samples = samples_of(kPlanes, [](const Vec3& p) { return lesser(kPlanes, p, 0, 1); });
   for (SheetSample& s : samples) {
     if (s.distance_m > 0) s.distance_m *= 0.5;

@@ -297,8 +297,8 @@ TEST_F(X3dImport, FaultsNameTheLineAndTheRemedy) {
                           i - 1, i == 1 ? "Shape" : "Group", i - 1);
   using enum ErrorCode;
   const FaultOf faults[] = {
-      {set("coordIndex='0 1 3'"), invalid_value, "line 3", "3 names none of its 3 points"},
-      {set("coordIndex='0 1 -2'"), invalid_value, "line 3", "-2 names none"},
+      {set("coordIndex='0 1 3'"), invalid_value, "line 3", "index 3 is out of range: there are 3 points"},
+      {set("coordIndex='0 1 -2'"), invalid_value, "line 3", "index -2 is out of range"},
       {set("coordIndex='" + huge_ring + "'"), too_large, "line 3", "18000 corners"},
       {set("coordIndex='0 1 2'", "0 0 0 1e30 0 0 0 1 0"), invalid_value, "line 3", "too far"},
       {shape_of("<IndexedFaceSet coordIndex='0 1 2'/>"), missing, "line 2", "no points"},

@@ -58,6 +58,14 @@ TEST(Surface, WhatNoMapHoldsIsNotFeltAndTheVerdictSaysSo) {
   EXPECT_NE(verdict(summary).find("100.0 % of this surface is not felt"), std::string::npos);
 }
 
+TEST(Surface, TheVerdictNamesALittleThatIsNotFelt) {
+  const FittedObject& box = fitted_box();
+  Summary summary = summarise(box, Surface(box));
+  summary.not_felt_share = 0.0013;
+  EXPECT_NE(verdict(summary).find("feel right: the 0.13 % that is not felt is too little"), std::string::npos)
+      << verdict(summary);
+}
+
 TEST(Surface, WhatAFingertipMaySlipThroughIsNotSaidToFeelRight) {
   FittedObject box = fitted_box();
   EXPECT_NE(verdict(summarise(box, Surface(box))).find("feel right"), std::string::npos);

@@ -65,40 +65,40 @@ TEST(OperationsFile, AFailedWriteChangesNothing) {
   EXPECT_EQ(store->state(), OperationsState{});
 }
 
-TEST(KioskWishes, MaintenanceGoesBeforeHoursAndEndsInTime) {
+TEST(KioskTargets, MaintenanceGoesBeforeHoursAndEndsInTime) {
   OperationsState state = busy_state();
-  EXPECT_EQ(wish_of(state, "kiosk-1", kNow).sign, "maintenance") << "until somebody ends it";
-  EXPECT_EQ(wish_of(state, "kiosk-2", kNow + 4).sign, "maintenance");
+  EXPECT_EQ(target_of(state, "kiosk-1", kNow).sign, "maintenance") << "until somebody ends it";
+  EXPECT_EQ(target_of(state, "kiosk-2", kNow + 4).sign, "maintenance");
   state.hours = {};
-  EXPECT_EQ(wish_of(state, "kiosk-2", kNow + 5).sign, "none");
-  EXPECT_EQ(wish_of(state, "kiosk-3", kNow).sign, "none");
+  EXPECT_EQ(target_of(state, "kiosk-2", kNow + 5).sign, "none");
+  EXPECT_EQ(target_of(state, "kiosk-3", kNow).sign, "none");
   const OperationsState later = without_ended(state, kNow + 60);
   EXPECT_EQ(later.maintenance.size(), 1U);
   EXPECT_TRUE(later.messages.empty());
   EXPECT_EQ(later.changes, state.changes) << "these must first be taken back";
 }
 
-TEST(KioskWishes, TheNewestMessageForAKioskCountsUntilItEnds) {
+TEST(KioskTargets, TheNewestMessageForAKioskCountsUntilItEnds) {
   OperationsState state = busy_state();
   state.hours = {};
   state.messages.push_back({5, {}, {{"en", "To all"}}, kNow + 10});
-  EXPECT_EQ(wish_of(state, "kiosk-1", kNow).message_en, "To all");
-  EXPECT_EQ(wish_of(state, "kiosk-1", kNow).message_el, "") << "never two messages at a time";
-  EXPECT_EQ(wish_of(state, "kiosk-1", kNow + 10).message_el, "Γεια");
-  EXPECT_EQ(wish_of(state, "kiosk-2", kNow + 10).message_en, "");
+  EXPECT_EQ(target_of(state, "kiosk-1", kNow).message_en, "To all");
+  EXPECT_EQ(target_of(state, "kiosk-1", kNow).message_el, "") << "never two messages at a time";
+  EXPECT_EQ(target_of(state, "kiosk-1", kNow + 10).message_el, "Γεια");
+  EXPECT_EQ(target_of(state, "kiosk-2", kNow + 10).message_en, "");
 }
 
-TEST(KioskWishes, VisitorsAreToldBeforeItCloses) {
+TEST(KioskTargets, VisitorsAreToldBeforeItCloses) {
   OperationsState state;
   HoursPlan plan;
   plan.week.fill({{0, 1440}});
   state.hours.museum = plan;
-  EXPECT_EQ(wish_of(state, "k", kNow), KioskWish{});
+  EXPECT_EQ(target_of(state, "k", kNow), KioskTarget{});
   const std::int64_t midnight = next_at(1440, kNow);
   state.hours.museum->week.fill({{0, 1430}});
-  EXPECT_NE(wish_of(state, "k", midnight - 15 * 60).message_en, "");
-  EXPECT_EQ(wish_of(state, "k", midnight - 25 * 60).message_en, "");
-  EXPECT_EQ(wish_of(state, "k", midnight - 10 * 60).sign, "closed");
+  EXPECT_NE(target_of(state, "k", midnight - 15 * 60).message_en, "");
+  EXPECT_EQ(target_of(state, "k", midnight - 25 * 60).message_en, "");
+  EXPECT_EQ(target_of(state, "k", midnight - 10 * 60).sign, "closed");
 }
 
 TEST(TimedChanges, ASecondOneKeepsWhatWasBeforeTheFirst) {

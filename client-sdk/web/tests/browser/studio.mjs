@@ -58,7 +58,7 @@ const parts = {
     await give('a text');
     assert.equal(await page.inputValue('form input:not([type=file])'), 'my-crane-2');
     await page.click('form button.main');
-    await page.waitForSelector('[role=alert]:has-text("this is no zip archive")');
+    await page.waitForSelector('[role=alert]:has-text("this is not a zip archive")');
     await accessible('import');
     await give('PK');
     await page.click('form button.main');

@@ -370,7 +370,7 @@ export class StudioStandIn extends StandIn {
   }
   answerImport({ headers }, path, said) {
     if (headers['content-type'] !== 'application/octet-stream') return [415, { error: 'this is not a file’s bytes', remedy: '' }];
-    if (!said.startsWith('PK')) return [400, { error: 'this is no zip archive, or it is damaged or cut short', remedy: 'export it again' }];
+    if (!said.startsWith('PK')) return [400, { error: 'this is not a zip archive, or it is damaged or cut short', remedy: 'export it again' }];
     this.asked.push({ path });
     return [200, this.view()];
   }

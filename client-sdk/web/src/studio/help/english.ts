@@ -54,7 +54,7 @@ export const kEnglishHelp: HelpWords = {
         'Tick “Fixed” for what stands fast, such as a post or a wall. Tick “A hand may take it” for what visitors should hold.',
         'Under “What touch feels”, “Share that the hand feels” makes heavy things bearable: with 0.05, a stone of 20 kg feels ' +
           'like 1 kg.',
-        'The + above the contents adds what is no thing: a hand that may take things, a rope, a ratchet, a quantity, an effect.',
+        'The + above the contents adds what is not a body: a hand that may take things, a rope, a ratchet, a quantity, an effect.',
         'Choose “Add a property” for what is not written yet. Without it, the usual value holds.',
       ],
       tips: [
