@@ -1,10 +1,11 @@
-// What operators send and what is stored of it, and what authors send about the pace of a trial: whatever the bytes, they are read and
-// written as the same again, or refused with a remedy.
+// What operators send and what is stored of it, and what staff send about the pace of a trial and about haptic devices: whatever the
+// bytes, they are read and written as the same again, or refused with a remedy.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
+#include "client-sdk/gateway/browsers/asked_devices.hpp"
 #include "client-sdk/gateway/operations/operations.hpp"
 #include "client-sdk/gateway/preview_api.hpp"
 
@@ -43,5 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto message = parse_visitor_message(text, kNow); is_read(message)) must_hold(!message->texts.empty());
   if (const auto pace = parse_pace(std::string(text)); is_read(pace))
     must_hold(pace->pace >= 0 && pace->pace <= 1 && pace->ticks <= 10'000);
+  if (const auto order = parse_device_order(std::string(text)); is_read(order))
+    must_hold(mechane::client::check(*order).has_value());
   return 0;
 }

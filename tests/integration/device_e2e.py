@@ -299,7 +299,7 @@ class Devices(EndToEnd):
                 self.assertIn(words, self.refused(*command, device))
         self.assertIn("nothing to test", self.refused("devices", "--test", "virtual"))
         self.assertIn("no real device", self.refused("visitor", "--device", "fake"))
-        self.assertIn("nobody would move", self.refused("visitor", "--device", "virtual:hand=off"))
+        self.assertIn("cannot move the stylus", self.refused("visitor", "--device", "virtual:hand=off"))
 
     @marked("address")
     def test_a_recorded_hand_is_played_again(self):

@@ -47,8 +47,8 @@ describe('landmarks of a hand', () => {
     expect(placeInCamera(parsePicture(JSON.stringify(flat))!.hands[0]!, kCamera as CameraPicture)).toBeNull();
     const hand = good.hands[0]!;
     const bad: unknown[] = [
-      null, 7, [], {}, { ...good, version: 2 }, { ...good, width: 0 }, { ...good, fov: 4 }, { ...good, hands: {} }, { ...good, hands: [null] },
-      { ...good, hands: Array(5).fill(hand) }, { ...good, hands: [{ ...hand, image: hand.image.slice(1) }] },
+      null, 7, [], {}, { ...good, version: 2 }, { ...good, width: 0 }, { ...good, fov: 4 }, { ...good, hands: {} },
+      { ...good, hands: [null] }, { ...good, hands: Array(5).fill(hand) }, { ...good, hands: [{ ...hand, image: hand.image.slice(1) }] },
       { ...good, hands: [{ ...hand, world: hand.world.map(() => [0, 0, 1e9]) }] },
       { ...good, hands: [{ ...hand, world: hand.world.map(() => ['0', 0, 0]) }] },
     ];
@@ -97,7 +97,8 @@ describe('the reach of a hand', () => {
     reach.look(before, 0, false);
     const p = along(0, 0, 0.5);
     reach.place(p, slope);
-    const after: Sight = { ...before, p_WM: kMiddle.clone().add(along(1, 0, 0)), R_WV: new Quaternion().setFromAxisAngle(along(0, 1, 0), 1) };
+    const R_WV = new Quaternion().setFromAxisAngle(along(0, 1, 0), 1);
+    const after: Sight = { ...before, p_WM: kMiddle.clone().add(along(1, 0, 0)), R_WV };
     reach.look(after, 5, true);
     expect(reach.place(p, slope).distanceTo(kMiddle)).toBeLessThan(1e-9);
     reach.look(after, 5, false);
@@ -128,7 +129,7 @@ describe('a hand before the camera', () => {
     };
     return { sent, page, hand, show, listener };
   }
-  const wristOf = (view: DataView, from = 12): Vector3 => along(...([0, 4, 8].map((k) => view.getFloat32(from + k, true)) as [number, number, number]));
+  const wristOf = (view: DataView, from = 12): Vector3 => new Vector3().fromArray([0, 4, 8].map((k) => view.getFloat32(from + k, true)));
 
   it('is a whole hand in the world: its true size, the palm as the visitor has it', () => {
     const { sent, show } = begin();

@@ -22,7 +22,8 @@ const { browser, page, errors } = await openBrowser();
 class Program {
   pose = { p: [0, 0, 0.5], bent: 0.3 };
   async start(port = 0) {
-    this.server = new WebSocketServer({ host: '127.0.0.1', port, handleProtocols: (all) => (all.has('mechane.hands.1') ? 'mechane.hands.1' : false) });
+    const handleProtocols = (all) => (all.has('mechane.hands.1') ? 'mechane.hands.1' : false);
+    this.server = new WebSocketServer({ host: '127.0.0.1', port, handleProtocols });
     await once(this.server, 'listening');
     this.server.on('connection', (socket) => {
       const pace = setInterval(() => socket.send(this.message()), 33);
