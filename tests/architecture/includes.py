@@ -60,9 +60,11 @@ FOLDERS = {
     "client-sdk/gateway": ["http", "sign_in", "browsers", "operations", "drafts", "."],
 }
 
-# These run in the tick, or are read by what does: no log there. Every other room may use it.
-NO_LOG = {"server/base", "server/geometry", "server/collision", "server/collision_build", "server/state", "server/dynamics", "server/haptics",
-          "server/machines", "server/agents", "server/hand", "server/realtime"}
+# No log here: what runs in the tick or is read by what does, and rooms whose callers say what went wrong. Every other room may use it.
+NO_LOG = {"server/base", "server/geometry", "server/collision", "server/collision_build", "server/state", "server/dynamics",
+          "server/haptics", "server/machines", "server/agents", "server/hand", "server/realtime", "server/world", "server/x3d",
+          "server/scenario", "server/database", "client-sdk/picture", "client-sdk/authoring", "client-sdk/studio",
+          "client-sdk/drivers"}
 
 # A third-party library: its headers, and the rooms that may know it. In those rooms it stays in .cpp files.
 LIBRARIES = {
