@@ -47,7 +47,7 @@ TEST(Surface, AShiftedMapIsOffByTheShiftBeforeAndBehind) {
 
 TEST(Surface, WhatNoMapHoldsIsNotFeltAndTheVerdictSaysSo) {
   FittedObject box = fitted_box();
-  EXPECT_EQ(verdict(summarise(box, Surface(box))).find("not felt"), std::string::npos);
+  EXPECT_EQ(verdict(summarise(box, Surface(box))).find("of this surface is not felt"), std::string::npos);
   box.object.parts[0].X_OQ.p.x() += 1;
   box.object.parts[0].bound_O.center.x() += 1;
   box.object.bound_O.center.x() += 1;

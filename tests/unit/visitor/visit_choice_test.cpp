@@ -52,8 +52,10 @@ TEST_F(VisitChoice, AnUnknownNameBringsTheListOfThoseThatThereAre) {
   options_.visits = {"use"};
   EXPECT_THAT(refusal(), is_error(ErrorCode::unknown_name, 0, {"screw.x3d", "visit 'use'", list}));
   options_.visits.clear();
+  options_.activities = {"lifting"};
+  EXPECT_THAT(refusal(), is_error(ErrorCode::unknown_name, 0, {"screw.x3d", "'lifting'", list}));
   options_.activities = {"turning"};
-  EXPECT_THAT(refusal(), is_error(ErrorCode::unknown_name, 0, {"screw.x3d", "'turning'", list}));
+  EXPECT_THAT(refusal(), is_error(ErrorCode::unknown_name, 0, {"screw.x3d", "'turning'", "--visit turning"}));
   world_.visits.clear();
   EXPECT_THAT(refusal(), is_error(ErrorCode::missing, 0, {"screw.x3d"}));
 }
