@@ -23,16 +23,16 @@ const kWidth = 480;
 
 export function fromProgram(port: number, listener: HandListener): HandSource {
   let unread = 0;
+  const read = (picture: CameraPicture | null): void => {
+    unread = picture ? 0 : unread + 1;
+    if (unread >= kUnreadable) listener.trouble('badProgram');
+    else if (picture) listener.seen(picture);
+  };
   return new Connection(`ws://127.0.0.1:${port}/`, {
     opened: () => listener.trouble(null),
     closed: () => listener.trouble('noProgram'),
-    bytes: () => (unread = kUnreadable),
-    text: (json) => {
-      const picture = parsePicture(json);
-      unread = picture ? 0 : unread + 1;
-      if (unread >= kUnreadable) listener.trouble('badProgram');
-      else if (picture) listener.seen(picture);
-    },
+    bytes: () => read(null),
+    text: (json) => read(parsePicture(json)),
   }, WebSocket, kSubprotocol);
 }
 

@@ -95,6 +95,10 @@ const parts = {
     await page.getByText('Compare their versions').waitFor();
     delete program.message;
     await camera('it is read again', (c) => c.state === 'seen');
+    program.message = () => Buffer.from([1, 2, 3]);
+    await page.getByText('Compare their versions').waitFor();
+    delete program.message;
+    await camera('texts are read after bytes', (c) => c.state === 'seen');
     program.pose = null;
     await page.getByText('Show your hand to the camera').waitFor();
     await picture('camera-looking');
