@@ -20,7 +20,7 @@ struct GatewayOptions {
   std::filesystem::path scenarios;    ///< the server's exhibits, for playing back and the studio; empty: neither
   /// DDS domain of the first visit that is being prepared; the next one has the next.
   std::uint32_t playback_domain = 210;
-  std::filesystem::path hand_model;  ///< for the camera hand, given to pages; empty: there is none
+  std::filesystem::path hand_model;  ///< given to pages for the camera hand; empty: no model
   std::string phones;  ///< http(s)://HOST(:PORT): native displays show a code that leads phones there; empty: none
   std::vector<std::string> kiosks{"kiosk-1"};
   bool plain = false;                         ///< beyond this machine without TLS, too

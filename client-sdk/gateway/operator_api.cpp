@@ -1,6 +1,8 @@
 #include "client-sdk/gateway/operator_api.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -27,8 +29,16 @@ constexpr Duration kOpensWithin = std::chrono::seconds(15);
 constexpr Duration kAnswersWithin = std::chrono::seconds(5);
 constexpr Duration kPictureWithin = std::chrono::seconds(20);
 constexpr std::size_t kAuditShown = 500;
-constexpr std::string_view kKiosks = "/api/kiosks/";
-constexpr std::string_view kDevices = "/devices";
+
+/// Of "/api/kiosks/NAME/VERB"; none: the path is another one.
+std::optional<std::pair<std::string, std::string>> kiosk_and_verb(const std::string& path) {
+  constexpr std::string_view kKiosks = "/api/kiosks/";
+  if (!path.starts_with(kKiosks)) return std::nullopt;
+  const std::string rest = path.substr(kKiosks.size());
+  const std::size_t slash = rest.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  return std::pair(rest.substr(0, slash), rest.substr(slash + 1));
+}
 
 HttpAnswer json_answer(const ApiJson& json) {
   return fresh_answer(json.dump(-1, ' ', false, ApiJson::error_handler_t::replace));
@@ -263,17 +273,16 @@ ApiJson accounts_json(const Accounts& accounts) {
   return {{"accounts", list}};
 }
 
-/// A kiosk that no browser uses is joined first, which takes a moment. Where `order` is not null, a device is asked.
-void look_at_devices(GatewaySite& site, const std::string& kiosk, const client::DeviceRequest* order,
+/// A kiosk that no browser uses is joined first, which takes a moment. With an order, a device is asked.
+void look_at_devices(GatewaySite& site, const std::string& kiosk, const std::optional<client::DeviceRequest>& order,
                      const Done& done) {
   const auto hub = site.hub_of(kiosk);
   if (!hub) return done(refusal(503, "too many kiosks are in use", "try again later"));
-  const auto asked = order == nullptr ? std::nullopt : std::optional(*order);
-  const auto look = [hub, asked]() -> std::optional<HttpAnswer> {
+  const auto look = [hub, order]() -> std::optional<HttpAnswer> {
     hub->use(time_now());
     if (hub->link() != client::LinkState::joined) return std::nullopt;
-    if (asked)
-      if (const auto sent = hub->asked_devices().ask(*hub->client(), *asked, time_now()); !sent)
+    if (order)
+      if (const auto sent = hub->asked_devices().ask(*hub->client(), *order, time_now()); !sent)
         return refusal(sent.error());
     return json_answer({{"devices", hub->devices_json(time_now())}});
   };
@@ -286,7 +295,7 @@ bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::strin
   if (!site.knows_kiosk(kiosk)) return answer(unknown_kiosk(kiosk)), true;
   if (verb == "device") {
     const auto order = parse_device_order(body);
-    return order ? look_at_devices(site, kiosk, &*order, answer) : answer(refusal(order.error())), true;
+    return order ? look_at_devices(site, kiosk, *order, answer) : answer(refusal(order.error())), true;
   }
   const auto until_then = with_end(site, kiosk, verb, body, answer);
   if (!until_then) return answer(refusal(until_then.error())), true;
@@ -343,10 +352,9 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
   if (path == "/api/operations") return done(operations_answer(site)), true;
   if (answer_visits_get(site, request, done)) return true;
   if (answer_studio_get(site, request, done)) return true;
-  if (operates && path.starts_with(kKiosks) && path.ends_with(kDevices)) {
-    const std::string kiosk = path.substr(kKiosks.size(), path.size() - kKiosks.size() - kDevices.size());
-    if (!site.knows_kiosk(kiosk)) return done(unknown_kiosk(kiosk)), true;
-    return look_at_devices(site, kiosk, nullptr, done), true;
+  if (const auto at = kiosk_and_verb(path); operates && at && at->second == "devices") {
+    if (!site.knows_kiosk(at->first)) return done(unknown_kiosk(at->first)), true;
+    return look_at_devices(site, at->first, std::nullopt, done), true;
   }
   const bool for_operators = path == "/api/audit" || path == "/api/accounts" || path == "/api/exhibits";
   if (!for_operators) return false;
@@ -379,11 +387,8 @@ bool answer_api_post(GatewaySite& site, const Session& session, const HttpReques
   const bool now = json.contains("now") && json["now"].is_boolean() && json["now"].get<bool>();
   if (answer_exhibits_post(site, request, now, done)) return true;
   if (answer_operations_post(site, request, done)) return true;
-  if (!request.path.starts_with(kKiosks)) return false;
-  const std::string rest = request.path.substr(kKiosks.size());
-  const std::size_t slash = rest.find('/');
-  if (slash == std::string::npos) return false;
-  return post_to_kiosk(site, rest.substr(0, slash), rest.substr(slash + 1), json, request.body, done);
+  const auto at = kiosk_and_verb(request.path);
+  return at && post_to_kiosk(site, at->first, at->second, json, request.body, done);
 }
 
 }  // namespace mechane::gateway

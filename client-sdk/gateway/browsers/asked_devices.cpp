@@ -68,7 +68,7 @@ Expected<client::DeviceRequest> parse_device_order(const std::string& body) {
 Expected<void> AskedDevices::ask(client::Client& client, const client::DeviceRequest& request, TimePoint now) {
   const std::vector<client::DeviceDetails> details = client.device_details();
   if (std::ranges::find(details, request.user, &client::DeviceDetails::user) == details.end())
-    return fail(ErrorCode::conflict, fmt::format("there is no device {} here", request.user + 1), "user",
+    return fail(ErrorCode::conflict, fmt::format("this kiosk has no device {}", request.user + 1), "user",
                 "start its program, and wait until it is listed");
   const auto asked = client.ask_device(request);
   if (!asked) return tl::unexpected(asked.error());

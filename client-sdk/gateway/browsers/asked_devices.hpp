@@ -22,7 +22,7 @@ namespace mechane::gateway {
 /// On the loop's thread.
 class AskedDevices {
  public:
-  /// The answer is in what look() tells. Errors: conflict (there is no such device), io_failure.
+  /// Sends the request; look() tells the answer once it came. Errors: conflict (the kiosk has no such device), io_failure.
   [[nodiscard]] Expected<void> ask(client::Client& client, const client::DeviceRequest& request, TimePoint now);
   /// Those that are there, each with what staff see of it and what became of the last request.
   [[nodiscard]] nlohmann::json look(client::Client& client, std::span<const client::DeviceReport> reports,

@@ -11,7 +11,7 @@ namespace mechane::gateway {
 
 struct HandFinders {
   bool model = false;         ///< pages get it at /hand-model
-  std::uint16_t program = 0;  ///< its port on the browser's own machine; 0: there is none
+  std::uint16_t program = 0;  ///< its port on the browser's own machine; 0: no program
 };
 
 /// Looks at the first bytes of a model, a bundle of MediaPipe (a zip file). Errors: io_failure, damaged.

@@ -1,7 +1,7 @@
 import { Matrix4, PerspectiveCamera, Quaternion, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { CameraHand, type CameraPage } from '../src/camera/camera_hand';
-import { jointsOf, kLandmarks, parsePicture, placeInCamera, sideOf, type CameraPicture } from '../src/camera/landmarks';
+import { jointsOf, kLandmarks, parsePicture, placeInCamera, sideOf, slopeOf, type CameraPicture } from '../src/camera/landmarks';
 import { Reach, sightOf, type Sight } from '../src/camera/reach';
 import type { HandListener } from '../src/camera/sources';
 import { Steady } from '../src/camera/steady';
@@ -17,7 +17,7 @@ describe('landmarks of a hand', () => {
   it('tell where the hand is before the camera', () => {
     for (const p of [[0, 0, 0.5], [0.15, -0.1, 0.4], [-0.2, 0.12, 0.9]] as [number, number, number][]) {
       const picture = pictureOf({ p, bent: 0.3, turn: 0.4 });
-      expect(placeInCamera(picture.hands[0]!, picture)!.distanceTo(along(...p))).toBeLessThan(1e-9);
+      expect(placeInCamera(picture.hands[0]!, slopeOf(picture))!.distanceTo(along(...p))).toBeLessThan(1e-9);
     }
   });
   it('tell its side, however it is turned, unless its fingers are straight', () => {
@@ -44,7 +44,8 @@ describe('landmarks of a hand', () => {
   it('on one ray tell nothing, and what a program sends is read with suspicion', () => {
     const good = { version: 1, ...kCamera, hands: [seenHand({ p: [0, 0, 0.5], bent: 0 }, kCamera)] };
     const flat = { ...good, hands: [{ ...good.hands[0], image: Array.from({ length: kLandmarks }, () => [0.5, 0.5]) }] };
-    expect(placeInCamera(parsePicture(JSON.stringify(flat))!.hands[0]!, kCamera as CameraPicture)).toBeNull();
+    const seen = parsePicture(JSON.stringify(flat))!;
+    expect(placeInCamera(seen.hands[0]!, slopeOf(seen))).toBeNull();
     const hand = good.hands[0]!;
     const bad: unknown[] = [
       null, 7, [], {}, { ...good, version: 2 }, { ...good, width: 0 }, { ...good, fov: 4 }, { ...good, hands: {} },

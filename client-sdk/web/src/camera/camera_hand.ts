@@ -2,7 +2,7 @@
 // part of the app is fetched when a visitor asks for it.
 import { Vector3 } from 'three';
 import { handBytes, type SeenHand } from '../xr/joints';
-import { jointsOf, placeInCamera, sideOf, type CameraPicture, type SeenLandmarks, type Side } from './landmarks';
+import { jointsOf, placeInCamera, sideOf, slopeOf, type CameraPicture, type SeenLandmarks, type Side } from './landmarks';
 import { Reach, type Sight } from './reach';
 import type { HandListener, HandSource, Trouble } from './sources';
 import { Steady } from './steady';
@@ -116,13 +116,12 @@ export class CameraHand implements HandListener {
   }
 
   private follow(picture: CameraPicture, now: number): SeenHand[] {
-    const across = Math.tan(picture.fov / 2);
-    const slope = { across, down: (across * picture.height) / picture.width };
+    const slope = slopeOf(picture);
     this.followed = this.followed.filter((hand) => now - hand.at < kAway_ms);
     const free = new Set(this.followed);
     const out: SeenHand[] = [];
     for (const landmarks of picture.hands) {
-      const p_C = placeInCamera(landmarks, picture);
+      const p_C = placeInCamera(landmarks, slope);
       if (!p_C) continue;
       const hand = nearest(free, p_C) ?? this.meet(p_C);
       if (!hand) continue;

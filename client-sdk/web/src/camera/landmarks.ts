@@ -60,14 +60,22 @@ export function parsePicture(json: string): CameraPicture | null {
   return { width, height, fov, hands: out };
 }
 
+/** Half the picture, across and down, at one metre. */
+export interface Slope {
+  across: number;
+  down: number;
+}
+export function slopeOf({ width, height, fov }: CameraPicture): Slope {
+  const across = Math.tan(fov / 2);
+  return { across, down: (across * height) / width };
+}
+
 /** Where in C the point is from which `world` counts, by least squares: the rays of `image` go through the landmarks there. Null: all lie
  * on one ray, or behind the camera. */
-export function placeInCamera({ image, world }: SeenLandmarks, { width, height, fov }: CameraPicture): Vector3 | null {
-  const across = 2 * Math.tan(fov / 2);
-  const down = (across * height) / width;
+export function placeInCamera({ image, world }: SeenLandmarks, { across, down }: Slope): Vector3 | null {
   let [u1, v1, square, a1, b1, both] = [0, 0, 0, 0, 0, 0];
   image.forEach(([x, y], k) => {
-    const [u, v, m] = [(x - 0.5) * across, (y - 0.5) * down, world[k]!];
+    const [u, v, m] = [(2 * x - 1) * across, (2 * y - 1) * down, world[k]!];
     const [a, b] = [u * m.z - m.x, v * m.z - m.y];  // x - u z = a, y - v z = b
     u1 += u;
     v1 += v;
@@ -93,7 +101,7 @@ export function jointsOf(points: readonly Vector3[]): Vector3[] {
 
 /** How far the fingers are bent towards the palm of a right hand, as a share of the palm's length; below 0: it is a left hand's palm.
  * Models take the one side for the other in mirrored pictures; this cannot, for fingers do not bend backwards. */
-export function bentAsRight(points: readonly Vector3[]): number {
+function bentAsRight(points: readonly Vector3[]): number {
   const wrist = points[kWrist]!;
   const [index, little] = [points[kFingers[0]]!.clone().sub(wrist), points[kFingers[3]]!.clone().sub(wrist)];
   const palm = index.clone().cross(little).normalize();  // out of the palm of a right hand

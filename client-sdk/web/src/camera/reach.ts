@@ -2,6 +2,7 @@
 // visitor's right goes to the right in the picture, and one that goes towards the screen goes into it. V is the picture's view: right,
 // up, back.
 import { Matrix4, Quaternion, Vector3 } from 'three';
+import type { Slope } from './landmarks';
 
 /** A hand moves so far from its middle to reach the edge of the picture. */
 const kReach_m = 0.18;
@@ -45,15 +46,15 @@ export class Reach {
     this.sight.p_WM.lerp(now.p_WM, share);
     this.sight.half_m += share * (now.half_m - this.sight.half_m);
   }
-  /** From C to W. `slope`: half the camera's picture across, and down, at one metre. Call look() before. */
-  place(p_C: Vector3, slope: { across: number; down: number }): Vector3 {
+  /** From C to W. `slope`: of the camera. Call look() before. */
+  place(p_C: Vector3, slope: Slope): Vector3 {
     this.middle_C ??= middleFor(p_C, slope);
     const gain = Math.max(this.sight!.half_m / kReach_m, kLeastGain);
     return p_C.clone().sub(this.middle_C).multiplyScalar(gain).applyQuaternion(this.R_WC).add(this.sight!.p_WM);
   }
 }
 
-function middleFor(p_C: Vector3, slope: { across: number; down: number }): Vector3 {
+function middleFor(p_C: Vector3, slope: Slope): Vector3 {
   const z = Math.min(Math.max(p_C.z, kNearest_m), kFarthest_m);
   const within = (x: number, half: number): number => Math.min(Math.max(x, -half), half);
   const [x, y] = [slope.across * z * (1 - 2 * kRoom), slope.down * z * (1 - 2 * kRoom)];
