@@ -48,7 +48,9 @@ class Visits(EndToEnd):
                 self.assertAlmostEqual(step["duration_s"], seen["seconds"], delta=PATIENCE, msg=step["step"])
             self.assertAlmostEqual(sum(step["duration_s"] for step in record["steps"]), record["duration_s"], delta=0.01)
             self.assertEqual((record["kiosk"], record["scenario"], record["hands"]), ("kiosk-1", "archimedes-screw", 1))
-            self.assertEqual((record["mistakes"], record["done_alone"], record["notes_lost"]), ([], True, 0))
+            # On a slow machine a step takes longer than its hint waits (20 s); the record then says that the visitor had help.
+            alone = all(step["duration_s"] < 20 for step in record["steps"])
+            self.assertEqual((record["mistakes"], record["done_alone"], record["notes_lost"]), ([], alone, 0))
         report = self.visits()
         self.assertEqual([(a["activity"], a["visits"], a["done"]) for a in report["activities"]], [("assemble", 1, 1), ("use", 1, 1)])
         self.assert_nobody_is_in_the_file()
