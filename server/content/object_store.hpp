@@ -19,7 +19,7 @@
 namespace mechane::content {
 
 /// Raised when the builder makes other objects from the same meshes: the cache then builds them again.
-inline constexpr int kObjectBuildVersion = 7;
+inline constexpr int kObjectBuildVersion = 8;
 /// Raised when the import makes other triangles of the same file. This is not kSceneCodecVersion: a new field of materials must not make a
 /// museum wait for minutes.
 inline constexpr int kObjectImportVersion = 1;
