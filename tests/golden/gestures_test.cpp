@@ -1,11 +1,7 @@
 // Ten gestures of a stylus and of a glove, through the server's contacts and the whole loop of a client: what the device is given, against
 // the traces in gestures.txt.
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,11 +11,11 @@
 #include "client-sdk/haptic/haptic_loop.hpp"
 #include "client-sdk/haptic/simulated_stylus.hpp"
 #include "tests/support/floor_server.hpp"
+#include "tests/support/golden_rows.hpp"
 #include "tests/support/sanitizers.hpp"
 #include "tests/support/scripted_client.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/solids.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/touch.hpp"
 
 namespace mechane {
@@ -205,27 +201,7 @@ TEST(Gestures, GiveTheForcesThatWereAccepted) {
     EXPECT_LT(trace.back().force_W.f.norm(), 1e-3) << gesture.name << " ends in free air";
     std::ranges::copy(rows(gesture.name, trace), std::back_inserter(played));
   }
-  const std::filesystem::path file = test::source_folder() / "tests/golden/gestures.txt";
-  if (std::getenv("MECHANE_ACCEPT_GOLDEN") != nullptr) {
-    std::ofstream out(file);
-    for (const std::string& row : played)
-      out << row << "\n";
-  }
-  std::ifstream accepted(file);
-  std::string row;
-  std::size_t i = 0;
-  for (; std::getline(accepted, row) && i < played.size(); ++i) {
-    std::istringstream was(row), is(played[i]);
-    std::string was_name, is_name;
-    was >> was_name;
-    is >> is_name;
-    ASSERT_EQ(is_name, was_name);
-    for (double before = 0, now = 0; was >> before && is >> now;)
-      ASSERT_NEAR(now, before, kSame_n)
-          << "accepted: " << row << "\\nnow:      " << played[i]
-          << "\\nif it was meant to change, run this test once with MECHANE_ACCEPT_GOLDEN=1";
-  }
-  EXPECT_EQ(i, played.size());
+  test::expect_accepted("gestures.txt", played, kSame_n);
 }
 
 /// Eight boards are felt as one is. People notice differences of force from about a tenth on.

@@ -30,7 +30,8 @@ FitState FitState::moved(const Step& step) const {
   for (int i = 0; i < 3; ++i)
     to.a[i] *= std::exp(step[kAxes + i]);
   for (int i = 0; i < 2; ++i) {
-    to.e[i] = std::clamp(e[i] + step[kExponents + i], kMinExponent, kMaxExponent);  // a sum can round past the step's bounds
+    to.e[i] =
+        std::clamp(e[i] + step[kExponents + i], kMinExponent, kMaxExponent);  // a sum can round past the step's bounds
     to.taper[i] += step[kTaper + i];
     to.bend[i] += step[kBend + i];
   }

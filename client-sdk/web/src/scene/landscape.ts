@@ -239,14 +239,16 @@ function leaf(r: number, g: number, b: number): MeshStandardMaterial {
   return material;
 }
 
+/** Always the same of the same plan. */
+export const plantsOf = (plan: LandscapePlan): Plant[] => [
+  ...scatter(plan, 'olive', 0, 140, kTreeline_m),
+  ...scatter(plan, 'cypress', 1, 9, kTreeline_m),
+  ...scatter(plan, 'brush', 2, 70, kBrushland_m),
+];
+
 export function growLandscape(plan: LandscapePlan): Group {
   const growing = new Growing();
-  const plants = [
-    ...scatter(plan, 'olive', 0, 140, kTreeline_m),
-    ...scatter(plan, 'cypress', 1, 9, kTreeline_m),
-    ...scatter(plan, 'brush', 2, 70, kBrushland_m),
-  ];
-  for (const plant of plants) {
+  for (const plant of plantsOf(plan)) {
     const coarse = Math.min(Math.max(plant.p.distanceTo(plan.middle) / kNear_m, 1), 6);
     if (plant.kind === 'olive') growing.olive(plant, coarse);
     else if (plant.kind === 'cypress') growing.cypressTree(plant, coarse);
