@@ -174,8 +174,8 @@ RC_GTEST_PROP(ThinParts, AreFeltInEveryTickUntilTheFingersCentreHasPassed, ()) {
     if (contacts.empty()) {
       RC_ASSERT(depth_m < kUnfelt_m);
     } else {
-      // Half the thickness away from the middle the part ends: in air nothing is felt. A map may err (worst of 24 000 passes: 0.6 mm).
-      RC_ASSERT(depth_m > -0.5 * passing.part->thickness_m - 0.0007);
+      // Half the thickness away from the middle the part ends: in air nothing is felt. A map may err by 1 mm, which is what the builder aims at.
+      RC_ASSERT(depth_m > -0.5 * passing.part->thickness_m - 0.001);
     }
   }
   RC_ASSERT(felt >= 2);  // at 2 m/s the smallest finger's half is over in three ticks
