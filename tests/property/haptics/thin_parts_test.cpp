@@ -174,7 +174,7 @@ RC_GTEST_PROP(ThinParts, AreFeltInEveryTickUntilTheFingersCentreHasPassed, ()) {
     if (contacts.empty()) {
       RC_ASSERT(depth_m < kUnfelt_m);
     } else {
-      // Half the thickness away from the middle the part ends: in air nothing is felt. A map may err by 1 mm, which is what the builder aims at.
+      // Half the thickness away from the middle the part ends: in air nothing is felt. A map may err by 1 mm, the builder's own aim.
       RC_ASSERT(depth_m > -0.5 * passing.part->thickness_m - 0.001);
     }
   }
