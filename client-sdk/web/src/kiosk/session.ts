@@ -1,7 +1,8 @@
 // One kiosk in a page: what the gateway says, the picture of it, the hand. Without a document of its own: Kiosk.svelte shows it.
-import { Box3, Vector3 } from 'three';
+import { Vector3 } from 'three';
 import type { CameraHand } from '../camera/camera_hand';
 import { sightOf, type Sight } from '../camera/reach';
+import { cornersOf } from '../scene/camera';
 import { underFinger, placeToTake, type UnderFinger } from '../scene/picking';
 import { Picture, type InsetPlace } from '../scene/picture';
 import { inPlace, type StereoSetup } from '../scene/stereo';
@@ -12,11 +13,15 @@ import { decodeFrame, type Frame } from '../wire/frame';
 import { FrameHistory, kDelay } from '../wire/history';
 import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type WorldEvent } from '../wire/messages';
 import { drawAid } from './aid';
+import type { Box } from './place';
 import { KeyHand } from './keys';
 import { PointerIn } from './pointer';
 import type { Headset, HeadsetMode } from '../xr/headset';
 
 const kReportEvery_ms = 1_000;
+/** Captions need not follow each picture. */
+const kSeenEvery_ms = 250;
+const kAround_m = 0.03;
 const kHoverEvery_ms = 100;
 /** A name still belongs visibly to the pointed place within this share of the picture's height. */
 const kReadTogether = 0.14;
@@ -45,6 +50,8 @@ export interface Shown {
   /** The world moves. */
   live: boolean;
   label: Label | null;
+  /** What captions do not cover: hands, what they can take, goals; in the pixels of an eye's place. */
+  seen: Box[];
   things: Thing[];
   hovering: boolean;
   inset: { kind: 'detail' | 'whole'; place: InsetPlace } | null;
@@ -75,6 +82,8 @@ export class KioskSession {
   private hoverAt = 0;
   private focus: { object: number; place: { x: number; y: number } | null; at: number } | null = null;
   private reportAt = 0;
+  private seenAt = 0;
+  private seen: Box[] = [];
   private lastAt = 0;
   private corner: InsetPlace | null = null;
   /** In a page within another that does not show it now; and before the page has a size. */
@@ -221,7 +230,7 @@ export class KioskSession {
     const { state, online, malformed, frame, picture } = this;
     const complete = picture.world.complete;
     const view = picture.view();
-    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, view, things: this.things(),
+    return { state, online, malformed, sequence: frame?.sequence ?? 0, complete, view, things: this.things(), seen: this.seen,
       headset: this.headset?.look() ?? null, camera: this.hand?.look() ?? null, ...picture.report() };
   }
   /** Where to take a thing, in pixels; null: it is not to be seen. */
@@ -388,11 +397,7 @@ export class KioskSession {
     if (!middle) return null;
     const reach = kReadTogether * this.picture.height;
     let top = Infinity;
-    for (let corner = 0; corner < 8; ++corner) {
-      const { min, max } = thing.box as Box3;
-      const p = new Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).applyMatrix4(thing.X);
-      top = Math.min(top, this.picture.pixelOf(p)?.y ?? Infinity);
-    }
+    for (const corner of cornersOf(thing.box)) top = Math.min(top, this.picture.pixelOf(corner.applyMatrix4(thing.X))?.y ?? Infinity);
     return { text: thing.name, left: middle.x, top: Math.max(top, middle.y - reach) };
   }
 
@@ -402,6 +407,10 @@ export class KioskSession {
       this.reportAt = now;
       this.connection.send({ type: 'status', ...this.picture.report() });
     }
+    if (now - this.seenAt > kSeenEvery_ms) {
+      this.seenAt = now;
+      this.seen = this.picture.world.workplaces.flatMap((box) => this.picture.rectangleOf(box.clone().expandByScalar(kAround_m)) ?? []);
+    }
     this.changed({
       state: this.state,
       online: this.online,
@@ -409,6 +418,7 @@ export class KioskSession {
       outdated: this.unread >= kUnreadable,
       live: this.isLive(),
       label: this.label(),
+      seen: this.seen,
       things: this.things(),
       hovering: this.hover !== null,
       inset: this.picture.inset,

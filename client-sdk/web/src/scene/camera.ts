@@ -21,6 +21,10 @@ export const vector = (p: readonly number[]): Vector3 => new Vector3(p[0], p[1],
 export const quaternion = (x: PoseArray): Quaternion => new Quaternion(x[3], x[4], x[5], x[6]).normalize();
 export const rigid = (x: PoseArray): Matrix4 => new Matrix4().compose(vector(x), quaternion(x), new Vector3(1, 1, 1));
 
+export function cornersOf({ min, max }: Box3): Vector3[] {
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z));
+}
+
 /** Right, up and back, in W. */
 export function axesOf(camera: Camera): { right: Vector3; up: Vector3; back: Vector3 } {
   const back = camera.p.clone().sub(camera.target).normalize();
@@ -69,8 +73,7 @@ export function frameBox(box: Box3, from: Vector3, fov: number): Camera {
   const t = Math.tan(fov / 2);
   const across = 1.45 * t;
   let distance = 0.3;
-  for (let corner = 0; corner < 8; ++corner) {
-    const q = new Vector3(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5).multiply(extent);
+  for (const q of cornersOf(new Box3().setFromCenterAndSize(new Vector3(), extent))) {
     const [x, y, z] = [q.dot(right), q.dot(up), q.dot(back)];
     distance = Math.max(distance, (Math.abs(y) / t + kMost * z) / (kMost - kDrop), z + Math.abs(x) / (kMost * across));
   }
@@ -123,12 +126,8 @@ export function seenBox(camera: Camera, box: Box3): Box2 {
   const seen = new Box2();
   if (box.isEmpty()) return seen;
   const { right, up, back } = axesOf(camera);
-  for (let corner = 0; corner < 8; ++corner) {
-    const q = new Vector3(
-      corner & 1 ? box.max.x : box.min.x,
-      corner & 2 ? box.max.y : box.min.y,
-      corner & 4 ? box.max.z : box.min.z,
-    ).sub(camera.p);
+  for (const corner of cornersOf(box)) {
+    const q = corner.sub(camera.p);
     const depth = -q.dot(back);
     if (depth < kNear) return new Box2();
     seen.expandByPoint(new Vector2(q.dot(right) / depth, q.dot(up) / depth));

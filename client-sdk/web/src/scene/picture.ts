@@ -1,11 +1,11 @@
 // Draws the world on a canvas: the step's view, the close-up in a corner, a quality that the machine can afford.
 import {
-  ACESFilmicToneMapping, PCFShadowMap, PerspectiveCamera, PMREMGenerator, Quaternion, Scene, Mesh, SphereGeometry,
-  Vector3, WebGLRenderer,
+  ACESFilmicToneMapping, Box2, PCFShadowMap, PerspectiveCamera, PMREMGenerator, Quaternion, Scene, Mesh, SphereGeometry,
+  Vector2, Vector3, WebGLRenderer, type Box3,
 } from 'three';
 import type { Frame } from '../wire/frame';
 import type { KioskState } from '../wire/messages';
-import { applyTo, type Camera } from './camera';
+import { applyTo, cornersOf, type Camera } from './camera';
 import { EyeMixer } from './eye_mixer';
 import { skyMaterial } from './materials';
 import { ModelStore } from './models';
@@ -183,6 +183,19 @@ export class Picture {
   }
   pixelOf(p: Vector3, place = 0): { x: number; y: number } | null {
     return pixelOf(this.cameraOf(place), this.width, this.height, p);
+  }
+  /** Where a box is seen, by either eye, in the pixels of a place; null: it is not seen whole. */
+  rectangleOf(box: Box3): { left: number; top: number; width: number; height: number } | null {
+    const seen = new Box2();
+    for (let place = 0; place < this.places.length; ++place) {
+      for (const p of cornersOf(box)) {
+        const at = this.pixelOf(p, place);
+        if (!at) return null;
+        seen.expandByPoint(new Vector2(at.x, at.y));
+      }
+    }
+    const [width, height] = seen.getSize(new Vector2()).toArray();
+    return { left: seen.min.x, top: seen.min.y, width, height };
   }
   /** The view as the gateway must know it to place a hand. */
   view(place = 0): { pose: number[]; fov: number; aspect: number; offset: [number, number] } {

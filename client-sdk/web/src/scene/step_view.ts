@@ -149,21 +149,21 @@ function nearestPlace(standing: Standing, p: Vector3): Vector3 {
   return standing.box.clampPoint(p.clone().applyMatrix4(standing.X.clone().invert()), new Vector3()).applyMatrix4(standing.X);
 }
 
-/** Where hands work in this step: they, what they can take, and where that belongs. */
-export function workplace(
+/** Where hands work in this step: they, what they can take, and where that belongs; hands first. Empty: there is nothing to take. */
+export function workplaces(
   hands: readonly WorkingHand[],
   affordances: readonly Affordance[],
   agents: readonly string[],
   standing: (object: number) => Standing | null,
-): Box3 {
-  const out = new Box3();
+): Box3[] {
+  const out: Box3[] = [];
   const enabled = affordances.filter((a) => isEnabled(a, agents));
   const base = (a: Affordance): Matrix4 => (a.base == null ? new Matrix4() : (standing(a.base)?.X.clone() ?? new Matrix4()));
   const addGoals = (object: number): void => {
     for (const goal of enabled) {
       if ((goal.kind !== 'placed' && goal.kind !== 'brought') || goal.object !== object) continue;
       const p = new Vector3(...goal.AJ.slice(0, 3) as [number, number, number]).applyMatrix4(base(goal));
-      out.union(new Box3(p.clone().subScalar(kAroundGoal_m), p.addScalar(kAroundGoal_m)));
+      out.push(new Box3(p.clone().subScalar(kAroundGoal_m), p.addScalar(kAroundGoal_m)));
     }
   };
   const addArc = (hand: WorkingHand, object: number): void => {
@@ -174,7 +174,7 @@ export function workplace(
       const p = hand.box.getCenter(new Vector3()).applyMatrix4(X.clone().invert());
       for (const turn of [-Math.PI / 2, -Math.PI / 4, Math.PI / 4, Math.PI / 2]) {
         const q = p.clone().applyAxisAngle(new Vector3(0, 0, 1), turn).applyMatrix4(X);
-        out.union(new Box3(q.clone().sub(half), q.add(half)));
+        out.push(new Box3(q.clone().sub(half), q.add(half)));
       }
     }
   };
@@ -183,20 +183,19 @@ export function workplace(
     const object = standing(affordance.object);
     if (!object || object.box.isEmpty()) continue;
     if (hands.length === 0) {
-      out.union(object.box.clone().applyMatrix4(object.X));
+      out.push(object.box.clone().applyMatrix4(object.X));
       addGoals(affordance.object);
     }
     for (const hand of hands) {
       const p = nearestPlace(object, hand.box.getCenter(new Vector3()));
       if (!hand.holding) {
-        out.expandByPoint(p);
+        out.push(new Box3(p, p.clone()));
       } else if (hand.box.distanceToPoint(p) <= kHeld_m) {
-        out.expandByPoint(p);
+        out.push(new Box3(p, p.clone()));
         addGoals(affordance.object);
         addArc(hand, affordance.object);
       }
     }
   }
-  if (!out.isEmpty()) for (const hand of hands) out.union(hand.box);
-  return out;
+  return out.length > 0 ? [...hands.map((hand) => hand.box), ...out] : out;
 }

@@ -1,6 +1,6 @@
 // How the pictures of two eyes become one picture, and where each eye's part of it lies: client-sdk/picture/stereo.cpp and camera.cpp.
-import { Box3, Matrix4, PerspectiveCamera, Vector3 } from 'three';
-import { axesOf, halfTan, kFar, kNear, type Camera } from './camera';
+import { Box3, Matrix4, PerspectiveCamera } from 'three';
+import { axesOf, cornersOf, halfTan, kFar, kNear, type Camera } from './camera';
 
 export const kStereos = [
   'mono', 'sbs', 'top-bottom', 'sbs-squeezed', 'top-bottom-squeezed', 'anaglyph', 'rows', 'left', 'right',
@@ -86,12 +86,7 @@ export const inPlace = (place: EyePlace, x: number, y: number): { x: number; y: 
 export function nearestOf(box: Box3, camera: Camera): number {
   if (box.isEmpty()) return 0;
   const ahead = camera.target.clone().sub(camera.p).normalize();
-  let nearest = Infinity;
-  for (let corner = 0; corner < 8; ++corner) {
-    const p = new Vector3(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
-    nearest = Math.min(nearest, ahead.dot(p.sub(camera.p)));
-  }
-  return Math.max(nearest, kArm_m);
+  return Math.max(Math.min(...cornersOf(box).map((p) => ahead.dot(p.sub(camera.p)))), kArm_m);
 }
 
 /** A camera for two eyes: distances in metres of W. */

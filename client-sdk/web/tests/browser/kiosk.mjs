@@ -81,6 +81,18 @@ const parts = {
     gateway.say(gateway.messages.at(-1));
     await page.waitForSelector('[role=dialog]', { state: 'detached' });
   },
+  async 'words give way to what can be taken, and long ones turn to their end and back'() {
+    const apart = (a, b) => a.left + a.width <= b.left || b.left + b.width <= a.left || a.top + a.height <= b.top || b.top + b.height <= a.top;
+    gateway.say({ ...gateway.messages.at(-1), subtitle: 'Of wood.', caption: 'Take hold of the crank and turn it. '.repeat(5) });
+    await eventually('the note lies over nothing that matters', () => page.evaluate(() => {
+      const { left, top, width, height } = document.querySelector('.top').getBoundingClientRect();
+      return { seen: window.mechane.look().seen, note: { left, top, width, height }, moved: document.querySelector('.top').style.translate };
+    }).then(({ seen, note, moved }) => seen.length > 0 && moved !== '0px' && seen.every((one) => apart(one, note))));
+    const scrolled = (far) => page.waitForFunction((yes) => (document.querySelector('.caption').scrollTop > 10) === yes, far);
+    await scrolled(true);
+    await scrolled(false);
+    gateway.say(gateway.messages.at(-1));
+  },
   async 'bytes that are no frame are counted, and change nothing'() {
     gateway.say(Buffer.from([1, 1, 0, 0, 7]));
     gateway.say('{"type":');
