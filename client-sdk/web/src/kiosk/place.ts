@@ -61,8 +61,10 @@ function costOf(box: Box, usual: Box, bounds: Box): number {
 /** The cheapest place over no obstacle. A free place can be pushed left and up until it touches, so these places are enough. */
 function cheapest(bounds: Box, usual: Box, edges: readonly Box[], obstacles: readonly Box[], cost: (box: Box) => number): Box | null {
   const { width, height } = usual;
-  const xs = [usual.left, bounds.left, right(bounds) - width, ...edges.flatMap((box) => [Math.ceil(right(box)), Math.floor(box.left - width)])];
-  const ys = [usual.top, bounds.top, below(bounds) - height, ...edges.flatMap((box) => [Math.ceil(below(box)), Math.floor(box.top - height)])];
+  const beside = edges.flatMap((box) => [Math.ceil(right(box)), Math.floor(box.left - width)]);
+  const aboveAndBelow = edges.flatMap((box) => [Math.ceil(below(box)), Math.floor(box.top - height)]);
+  const xs = [usual.left, bounds.left, right(bounds) - width, ...beside];
+  const ys = [usual.top, bounds.top, below(bounds) - height, ...aboveAndBelow];
   let best: Box | null = null;
   let least = Infinity;
   for (const top of ys) {
