@@ -85,11 +85,14 @@ const parts = {
     const apart = (a, b) =>
       a.left + a.width <= b.left || b.left + b.width <= a.left || a.top + a.height <= b.top || b.top + b.height <= a.top;
     gateway.say({ ...gateway.messages.at(-1), subtitle: 'Of wood.', caption: 'Take hold of the crank and turn it. '.repeat(5) });
-    await eventually('the note lies over nothing that matters', () => page.evaluate(() => {
-      const { left, top, width, height } = document.querySelector('.top').getBoundingClientRect();
-      return { seen: window.mechane.look().seen, note: { left, top, width, height }, moved: document.querySelector('.top').style.translate };
-    })
-      .then(({ seen, note, moved }) => seen.length > 0 && moved !== '0px' && seen.every((one) => apart(one, note))));
+    await eventually('the note lies over nothing that matters', async () => {
+      const { seen, note, moved } = await page.evaluate(() => {
+        const words = document.querySelector('.top');
+        const { left, top, width, height } = words.getBoundingClientRect();
+        return { seen: window.mechane.look().seen, note: { left, top, width, height }, moved: words.style.translate };
+      });
+      return seen.length > 0 && moved !== '0px' && seen.every((one) => apart(one, note));
+    });
     const scrolled = (far) => page.waitForFunction((yes) => (document.querySelector('.caption').scrollTop > 10) === yes, far);
     await scrolled(true);
     await scrolled(false);
