@@ -59,7 +59,7 @@ Expected<void> check(const DevicePlace& place) {
     return fail(ErrorCode::invalid_value, "the device is turned by more than once around", "place",
                 "give an angle within 360 degrees");
   if (place.scale >= 1 && place.scale <= DevicePlace::kMostScale) return {};
-  return fail(ErrorCode::invalid_value, "the workspace has no such scale", "place",
+  return fail(ErrorCode::invalid_value, "the scale of the workspace is out of its range", "place",
               fmt::format("give metres of the world for one of the device's, 1 to {}", DevicePlace::kMostScale));
 }
 

@@ -109,7 +109,7 @@ Expected<std::string> parse_visit_order(const std::string& body) {
   if (json.is_object() && json.size() == 1)
     if (const auto visit = json.find("visit"); visit != json.end() && visit->is_string())
       return visit->get<std::string>();
-  return fail(ErrorCode::invalid_value, "this names no visit", {}, R"(send {"visit": NAME}, or "" to end one)");
+  return fail(ErrorCode::invalid_value, "the request names no visit", {}, R"(send {"visit": NAME}, or "" to end one)");
 }
 
 bool is_preview_verb(const std::string& verb) {

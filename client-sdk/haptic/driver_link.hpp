@@ -60,7 +60,7 @@ inline constexpr int kNewsFile = 4;
   return (state.flags & MECHANE_STATE_READY) != 0 ? DeviceCondition::ready : DeviceCondition::not_ready;
 }
 
-/// What a driver tells of the size of a hand. What it does not measure is that of a hand of `hand_scale`.
+/// The size of a hand, as its driver tells it. What the driver does not measure follows from `hand_scale`.
 [[nodiscard]] hand::HandBuild build_of(hand::HandSide side, const mechane_device_state& state,
                                        double hand_scale) noexcept;
 

@@ -35,7 +35,7 @@ class Lobby {
   void take_answers();
   /// Closes worlds that have been idle long enough, and gives worlds to kiosks that wait.
   void tidy(TimePoint now);
-  /// Lets also the visits end that are in progress on a former content of this exhibit. Those whose visits may finish need no call:
+  /// Also ends visits that are still running on a former content of this exhibit. Those whose visits may finish need no call:
   /// tidy() finds the worlds whose exhibit the store does not have any more.
   void hurry(const std::string& exhibit);
   /// Worlds that run a former content of this exhibit go on with it as the store has it now, from where they are: once their hands are
@@ -70,7 +70,7 @@ class Lobby {
   struct Waiting {
     transport::Session session;
     std::string told;   ///< why it waits, as it was last told
-    TimePoint until{};  ///< not before this, because it was told so: see send_away()
+    TimePoint until{};  ///< it gets no world before, so that its visitor can read why: see send_away()
   };
 
   void kiosk_appeared(const transport::Session& session, TimePoint now);

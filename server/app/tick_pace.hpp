@@ -22,9 +22,9 @@ struct PacedTick {
   transport::WorldPort::Passage passage;
 };
 
-/// Forces reach devices at pace 1 alone: a hand whose world is slower than itself would feel walls that lag behind. So they come and go
-/// through zero: on the way from 1 and to 1 hands are gone until the governor has ramped all forces down, about 100 ticks at full pace.
-/// Who pauses a slower world, lets go in one tick. Between 0 and 1 hands work on, and feel nothing.
+/// Devices get forces at pace 1 only: in a slower world a hand would feel walls that lag behind it. Before the pace leaves 1 or comes back
+/// to it, hands are taken out until the governor has ramped all forces to zero, about 100 ticks at full pace. Pausing a slower world takes
+/// one tick. Between 0 and 1 hands go on working without force.
 class TickPace {
  public:
   /// Main thread. False: the loop has not taken the former orders yet, and this one is lost.

@@ -14,7 +14,7 @@
 
 namespace mechane::collision {
 
-// So many parts are tested together. More parts are taken in batches; a point that lies in parts of two batches then counts twice.
+// Parts that are tested together. More are taken in batches, and a point in parts of two batches counts twice.
 inline constexpr std::size_t kPartBatch = 64;
 
 /// A point inside the target.

@@ -10,12 +10,12 @@
 
 namespace mechane::collision {
 
-/// Which fours of a set's points lie so close to a placed object that they need a look. It holds until a point may have moved by more
+/// Which groups of four of a set's points are near enough to a placed object to be tested. It holds until a point may have moved by more
 /// than the margin, or the object stands elsewhere; PlacedObject::query sees to both. No answer depends on it. The caller's: one for
 /// each pair of a set and an object, for one thread at a time. The set must stay the same but for the poses of its groups.
 class NearList {
  public:
-  /// Some ticks of a hand's motion: with a larger one more fours are looked at than is saved.
+  /// Some ticks of a hand's motion: a larger margin costs more tests than it saves.
   static constexpr float kMargin_m = 0.001F;
 
   /// Room for a set of so many points, so that a query allocates nothing.

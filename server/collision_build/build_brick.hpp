@@ -24,7 +24,7 @@ struct BrickNeeds {
   double stray_m = 0;        ///< a witness deeper than this must be inside, one this far outside must not
 };
 
-/// A box that holds what `frame` does, of blocks of which `blocks` lie along its longest edge. Not valid where it would be too large.
+/// A grid that covers `frame`, with `blocks` blocks along its longest edge. Not valid where it would be too large.
 [[nodiscard]] collision::DistanceBrick::Grid brick_grid(const MapFrame& frame, int blocks);
 
 /// A point whose exact depth is known; negative outside.

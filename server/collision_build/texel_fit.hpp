@@ -11,7 +11,7 @@ namespace mechane::collision_build {
   return resolution <= 16 ? 3 : resolution <= 32 ? 2 : 1;
 }
 
-/// The texels of one face, u fastest, of which bilinear interpolation comes closest to `sigma`, in the least squares of the surface's
+/// The texels of one face, u fastest, whose bilinear interpolation fits `sigma` best, by least squares over the surface's
 /// place: values at n n points, n = (resolution - 1) rays_per_cell + 1, of which every rays_per_cell-th is a texel's centre. A
 /// texel that holds its centre's value alone cuts off every crest that runs between centres. Each texel stays within the values
 /// around it, so that a step in the surface makes no ripples.

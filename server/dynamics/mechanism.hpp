@@ -60,7 +60,7 @@ class Mechanism {
   [[nodiscard]] bool moves(std::size_t body) const noexcept { return body != kGround && seen_[body] != 0; }
 
   /// Prepares the rows for solve(). Equalities that repeat others, to a billionth of their response, are left out and get no impulse.
-  /// Rows may be added afterwards, and this called again for them: such that have limits, and bodies that are in bodies().
+  /// Rows with limits, on bodies that are in bodies() already, may be added afterwards; then call this again.
   void factor() noexcept;
   /// Finds the impulses. `V`: by body, its velocity without them. May be called again for other velocities; it then begins with the
   /// impulses found.

@@ -21,7 +21,7 @@ enum class ThinWalls { let_through, hold_tips, hold_hands };
 void hold_walls(const state::WorldDescription& description, const HandModel& hand, const state::WorldState& state,
                 state::UserState& user, ThinWalls walls, ContactPatches& patches) noexcept;
 
-/// How far the side's segment is behind its wall, m; not yet there: below 0.
+/// Distance of the side's segment behind its wall, m; negative before it.
 [[nodiscard]] double depth_behind_m(const HandModel& hand, const state::WorldState& state, const state::UserState& user,
                                     const state::WallSide& side, ThinWalls walls = ThinWalls::hold_hands) noexcept;
 

@@ -14,9 +14,9 @@ namespace mechane::world {
 struct Obstacle {
   enum class Kind {
     none,
-    steps,   ///< activities or steps have come, gone, or another order; or this one switches other things
-    bodies,  ///< they have come, gone, or another order
-    body,    ///< this one begins elsewhere, or as another: fixed, seen, to be grasped
+    steps,   ///< activities or steps have come or gone, or have another order; or this one switches other things
+    bodies,  ///< they have come or gone, or have another order
+    body,    ///< this one begins elsewhere, or is now fixed, visible or graspable otherwise
     start    ///< something else begins otherwise: a joint, an agent, a machine, an event
   };
   Kind kind = Kind::none;

@@ -1,5 +1,5 @@
 // What the browser's pages compute again in TypeScript: cameras, eyes, hands, plants and sounds of the native programs, in browser.txt.
-// client-sdk/web/tests/native.test.ts compares the pages with the same file, so the two cannot part unseen.
+// client-sdk/web/tests/native.test.ts compares the pages with the same file.
 #include <string>
 #include <vector>
 
@@ -113,10 +113,13 @@ void add_sounds(Rows& rows) {
   client::SceneObject crank;
   crank.name = "crank";
   crank.movable = true;
-  client::Frame frame;
-  frame.tick = 1000;
-  frame.visible = {1};
-  frame.quantities = {0.3};
+  client::Frame before, now;
+  before.tick = 1000;
+  before.bodies = {{0, {Vec3(0, 1, 0), Quat::Identity()}}};
+  before.visible = now.visible = {1};
+  before.quantities = now.quantities = {0.3};
+  now.tick = 1050;
+  now.bodies = {{0, {Vec3(0.01, 1, 0.02), quat_from_rotation_vector(Vec3(0, 0, 0.02))}}};
   std::vector<sound::SoundEffect> effects;
   for (const char* kind : {"water", "wood", "rope", "stone", "fire", "steam", "ratchet"}) {
     sound::SoundEffect effect;
@@ -126,13 +129,28 @@ void add_sounds(Rows& rows) {
     effect.size_m = 2.5;
     effects.push_back(effect);
   }
+  sound::SoundEffect creak;  // as loud as the crank turns
+  creak.name = "crank";
+  creak.kind = "sound.wood";
+  creak.object = 0;
+  creak.p_B = {0.1, 0, 0};
+  creak.full = 3;
+  creak.size_m = 0.4;
+  effects.push_back(creak);
+  sound::SoundEffect bow;
+  bow.name = "bow";
+  bow.kind = "sound.bow";
+  bow.object = 0;
+  bow.p_B = {0, 2, 0};
+  effects.push_back(bow);
   std::vector<client::WorldEvent> events;
-  for (const char* kind :
-       {"grasped", "released", "placed", "assembled", "part_refused", "pushed", "pulled", "lit", "broke", "spilled"})
-    events.push_back({1000, kind, "", "crank", 0.0005});
-  for (const sound::SoundSource& source : sound::sound_sources({nullptr, &frame, events, {&crank, 1}, effects}))
-    add(rows, fmt::format("sound.{}", rows.size()),
-        std::vector{double(source.kind), source.gain, source.pitch, source.near_m});
+  for (const char* kind : {"grasped", "released", "placed", "assembled", "part_refused", "pushed", "pulled", "lit",
+                           "broke", "spilled", "fired"})
+    events.push_back({1050, kind, "", "crank", 0.0005});
+  for (const sound::SoundSource& source : sound::sound_sources({&before, &now, events, {&crank, 1}, effects})) {
+    add(rows, "sound", std::vector{double(source.kind), source.gain, source.pitch, source.near_m});
+    add_matrix(rows, "sound_at", source.p_W);
+  }
 }
 
 TEST(Browser, ComputesWhatTheNativeProgramsDo) {

@@ -519,8 +519,7 @@ class WebServerImpl final : public WebServer {
   /// Over TLS, telling why would take a handshake: the connection is closed.
   void refuse(tcp::socket socket, const std::string& address) {
     ++hall_->traffic.refused;
-    if (refusal_warnings_.take(now()))
-      log::warning("connections from " + address + " are refused: there are as many as may be");
+    if (refusal_warnings_.take(now())) log::warning("connections from " + address + " are refused: too many are open");
     if (tls_) return;
     if (hall_->refusals >= kMostRefusals) return tell_and_close(std::move(socket));
     std::make_shared<Lingerer>(PlainStream(std::move(socket)), hall_)->say(busy_text());

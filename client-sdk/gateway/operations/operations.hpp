@@ -67,7 +67,7 @@ struct KioskTarget {
 [[nodiscard]] KioskTarget target_of(const OperationsState& state, const std::string& kiosk, std::int64_t now);
 [[nodiscard]] bool in_maintenance(const OperationsState& state, const std::string& kiosk, std::int64_t now);
 
-/// Adds a change. One of the same kiosk and name is replaced, but what was before it stays: it is that to return to.
+/// Adds a change. It replaces one of the same kiosk and name, and keeps that one's value to return to.
 [[nodiscard]] Expected<void> add_change(OperationsState& state, TimedChange change);
 /// Without messages and maintenance that have ended; changes stay until they were taken back.
 [[nodiscard]] OperationsState without_ended(OperationsState state, std::int64_t now);

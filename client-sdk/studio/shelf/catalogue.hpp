@@ -39,7 +39,7 @@ struct CatalogueQuery {
   std::string language{};  ///< a code
 };
 
-/// Errors: invalid_value, of a kind that there is not, or of a text of more than 500 bytes.
+/// Errors: invalid_value, of an unknown kind, or of a text of more than 500 bytes.
 [[nodiscard]] Expected<void> check_query(const CatalogueQuery& query);
 /// The kind in the answer: "mesh".
 [[nodiscard]] std::string_view word_of(ItemKind kind);

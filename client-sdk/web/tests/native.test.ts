@@ -45,6 +45,7 @@ describe('a hand', () => {
   });
 
   it('has its skin in the same place', () => {
+    expect(under('skin').length).toBeGreaterThan(15);
     for (const { values } of under('skin')) expect(Math.abs(handDistance([values[0]!, values[1]!, values[2]!]))).toBeLessThan(5e-4);
   });
 });
@@ -104,19 +105,28 @@ it('the same plants grow', () => {
 
 it('the same is heard', () => {
   const kinds = ['water', 'splash', 'creak', 'knock', 'rope', 'scrape', 'thud', 'fire', 'steam', 'bow', 'ratchet'];
-  const effects = ['water', 'wood', 'rope', 'stone', 'fire', 'steam', 'ratchet'].map((kind) => (
-    { name: kind, kind: `sound.${kind}`, p: [0, 0, 0], quantity: 0, full: 1, size: 2.5 }));
+  const effect = (more: object): object => ({ p: [0, 0, 0], quantity: 0, full: 1, size: 2.5, ...more });
+  const effects = [
+    ...['water', 'wood', 'rope', 'stone', 'fire', 'steam', 'ratchet'].map((kind) => effect({ name: kind, kind: `sound.${kind}` })),
+    effect({ name: 'crank', kind: 'sound.wood', object: 0, quantity: 0xffffffff, p: [0.1, 0, 0], full: 3, size: 0.4 }),
+    effect({ name: 'bow', kind: 'sound.bow', object: 0, p: [0, 2, 0] }),
+  ];
   const crank = { index: 0, name: 'crank', movable: true, pose: [0, 0, 0, 0, 0, 0, 1] };
   const state = { objects: [crank], presentation: { effects } } as unknown as KioskState;
-  const frame = { tick: 1000, quantities: [0.3], objects: [], poses: new Float64Array(), visible: [] } as unknown as Frame;
-  const events = ['grasped', 'released', 'placed', 'assembled', 'part_refused', 'pushed', 'pulled', 'lit', 'broke', 'spilled'].map(
-    (kind): WorldEvent => ({ tick: 1000, kind, subject: '', object: 'crank', value: 0.0005 }));
-  const heard = soundSources(state, null, frame, events);
-  const native = under('sound');
+  const frame = (tick: number, pose: number[]): Frame =>
+    ({ tick, quantities: [0.3], objects: [0], poses: Float64Array.from(pose), visible: [1] }) as unknown as Frame;
+  const before = frame(1000, [0, 1, 0, 0, 0, 0, 1]);
+  const now = frame(1050, [0.01, 1, 0.02, 0, 0, Math.sin(0.01), Math.cos(0.01)]);
+  const events = [
+    'grasped', 'released', 'placed', 'assembled', 'part_refused', 'pushed', 'pulled', 'lit', 'broke', 'spilled', 'fired',
+  ].map((kind): WorldEvent => ({ tick: 1050, kind, subject: '', object: 'crank', value: 0.0005 }));
+  const heard = soundSources(state, before, now, events);
+  const [native, places] = [under('sound'), under('sound_at')];
   expect(heard.length).toBe(native.length);
   heard.forEach((source, i) => {
     const [kind, ...rest] = native[i]!.values;
     expect(source.kind).toBe(kinds[kind!]);
     expectNear([source.gain, source.pitch, source.near], rest, source.id);
+    expectNear(source.p.toArray(), places[i]!.values, source.id);
   });
 });

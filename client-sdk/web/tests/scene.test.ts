@@ -6,7 +6,7 @@ import { fingerTip, handDistance, kPinching, kPointing, placeHand } from '../src
 import { isTakeable, pixelOf, placeToTake, underFinger, type PickScene } from '../src/scene/picking';
 import { QualityGovernor } from '../src/scene/quality';
 import { ropeRings } from '../src/scene/ropes';
-import { StepView, workplaces } from '../src/scene/step_view';
+import { StepView, workplace } from '../src/scene/step_view';
 import { decodeFrame } from '../src/wire/frame';
 import type { Affordance, Effect, PoseArray, Presentation, World } from '../src/wire/messages';
 import { frameBytes } from './bytes';
@@ -79,21 +79,21 @@ describe('where hands work', () => {
   ];
   const standing = (): { X: Matrix4; box: Box3 } => ({ X: new Matrix4().makeTranslation(0, 1, 0), box });
 
-  const whole = (boxes: Box3[]): Box3 => boxes.reduce((sum, one) => sum.union(one), new Box3());
-
   it('is what can be taken and where it belongs, while no hand is there', () => {
-    const seen = whole(workplaces([], affordances, ['A'], standing));
+    const seen = workplace([], affordances, ['A'], standing).work;
     expect([seen.min.x, seen.max.x, seen.max.y]).toEqual([-1, 5.06, 2]);
   });
   it('is nowhere when nothing can be taken', () => {
-    expect(workplaces([], affordances, [], standing)).toEqual([]);
+    const hand = { box: new Box3(new Vector3(), new Vector3(1, 1, 1)), holding: false };
+    const { seen, work } = workplace([hand], affordances, [], standing);
+    expect(work.isEmpty()).toBe(true);
+    expect(seen).toEqual([hand.box]);  // hands stay visible
   });
   it('is the hand and the nearest place of the thing', () => {
     const hand = { box: new Box3().setFromCenterAndSize(new Vector3(3, 1, 0), new Vector3()), holding: false };
-    const places = workplaces([hand], affordances, ['A'], standing);
-    expect(places[0]).toBe(hand.box);
-    const seen = whole(places);
-    expect([seen.min.x, seen.max.x]).toEqual([1, 3]);
+    const { seen, work } = workplace([hand], affordances, ['A'], standing);
+    expect(seen[0]).toBe(hand.box);
+    expect([work.min.x, work.max.x]).toEqual([1, 3]);
   });
 });
 

@@ -1,6 +1,7 @@
 // What a search finds, and what is read of what people have written.
 #include "client-sdk/studio/shelf/catalogue.hpp"
 
+#include <map>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -61,21 +62,28 @@ std::set<std::string> found(const std::vector<CatalogueItem>& items, const Catal
 
 TEST(Catalogue, EachFilterLeavesWhatAllOfThemLeave) {
   const auto items = mixed_items();
-  const std::vector<std::string> texts{"", "τροχος", "ΛΕΝΗ μοχλ", "wheel thing", "no such thing"},
-      kinds{"", "exhibit", "draft", "mesh", "sound", "part", "template"}, tags{"", "ξυλο", "Bronze"},
-      licences{"", "-", "CC0-1.0"}, languages{"", "el", "en"};
-  for (const auto& text : texts)
-    for (const auto& kind : kinds)
-      for (const auto& tag : tags)
-        for (const auto& licence : licences)
-          for (const auto& language : languages) {
-            std::set<std::string> all = found(items, {});
-            for (const CatalogueQuery& one :
-                 {CatalogueQuery{.text = text}, CatalogueQuery{.kind = kind}, CatalogueQuery{.tag = tag},
-                  CatalogueQuery{.licence = licence}, CatalogueQuery{.language = language}}) {
-              const auto some = found(items, one);
-              std::erase_if(all, [&](const std::string& name) { return !some.contains(name); });
-            }
+  const auto found_by = [&](std::string CatalogueQuery::*filter, const std::vector<std::string>& values) {
+    std::map<std::string, std::set<std::string>> by;
+    for (const std::string& value : values) {
+      CatalogueQuery query;
+      query.*filter = value;
+      by[value] = found(items, query);
+    }
+    return by;
+  };
+  const auto texts = found_by(&CatalogueQuery::text, {"", "τροχος", "ΛΕΝΗ μοχλ", "wheel thing", "no such thing"});
+  const auto kinds = found_by(&CatalogueQuery::kind, {"", "exhibit", "draft", "mesh", "sound", "part", "template"});
+  const auto tags = found_by(&CatalogueQuery::tag, {"", "ξυλο", "Bronze"});
+  const auto licences = found_by(&CatalogueQuery::licence, {"", "-", "CC0-1.0"});
+  const auto languages = found_by(&CatalogueQuery::language, {"", "el", "en"});
+  for (const auto& [text, with_text] : texts)
+    for (const auto& [kind, of_kind] : kinds)
+      for (const auto& [tag, tagged] : tags)
+        for (const auto& [licence, licensed] : licences)
+          for (const auto& [language, spoken] : languages) {
+            std::set<std::string> all = with_text;
+            for (const auto* some : {&of_kind, &tagged, &licensed, &spoken})
+              std::erase_if(all, [&](const std::string& name) { return !some->contains(name); });
             ASSERT_EQ(found(items, {text, kind, tag, licence, language}), all);
           }
   EXPECT_TRUE(found(items, {.text = "no such thing"}).empty());

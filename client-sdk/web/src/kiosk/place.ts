@@ -24,7 +24,7 @@ export interface Surroundings {
 const kMiddleFrom = 0.2;
 const kMiddleHigh = 0.5;
 const kMiddleCosts = 2;
-/** So many gaps lie between the usual place and what was in it before words return. */
+/** Words return once their usual place is this many gaps from all that must be seen. */
 const kReturns = 3;
 /** Of a page's pixels, which are rounded. */
 const kRounding = 0.5;
@@ -79,31 +79,37 @@ function cheapest(bounds: Box, usual: Box, edges: readonly Box[], obstacles: rea
   return best;
 }
 
-/** As usual, with room to spare, or as it was, or where it covers nothing; or else where it covers the least important, and of that as
- *  little as can be. */
+/** The usual place if it is free with room to spare; else the last; else the cheapest free one; else the one that covers least, and of the
+ *  least important. */
 export function freePlace({ bounds, fixed, seen, gap }: Surroundings, usual: Box, last: Box): Box {
   const isFree = (box: Box): boolean => covered(box, seen) === 0 && covered(box, fixed) === 0;
   if (covered(usual, seen.map((box) => enlarged(box, kReturns * gap))) === 0 && covered(usual, fixed) === 0) return usual;
   if (isFree(last) && isWithin(last, bounds)) return last;
   if (isFree(usual)) return usual;
-  const apart = fixed.map((box) => enlarged(box, gap - 1));  // a usual place keeps it only as well as pixels are rounded
+  // Usual places keep the gap only to within a rounded pixel.
+  const apart = fixed.filter((box) => box.width > 0 && box.height > 0).map((box) => enlarged(box, gap - 1));
   const away = seen.map((box) => enlarged(box, gap));
-  const free = cheapest(bounds, usual, [...apart, ...away], [...apart, ...away], (box) => costOf(box, usual, bounds));
+  const cost = (box: Box): number => costOf(box, usual, bounds);
+  // First the places that do not depend on what moves: words in one of these rest.
+  const around = [...apart, ...away];
+  const free = cheapest(bounds, usual, apart, around, cost) ?? cheapest(bounds, usual, around, around, cost);
   if (free) return free;
   for (let kept = seen.length; kept >= 0; --kept) {
     const rest = seen.slice(kept);
-    const cost = (box: Box): number => covered(box, rest) + 0.001 * costOf(box, usual, bounds);
-    const found = cheapest(bounds, usual, [...apart, ...seen], [...apart, ...seen.slice(0, kept)], cost);
+    const areaFirst = (box: Box): number => covered(box, rest) + 0.001 * cost(box);
+    const found = cheapest(bounds, usual, [...apart, ...seen], [...apart, ...seen.slice(0, kept)], areaFirst);
     if (found) return found;
   }
   return usual;
 }
 
-const kWords = ['.top', '.caption'];
-type Way = { x: number; y: number };
-const moved = (box: Box, by: Way): Box => ({ ...box, left: box.left + by.x, top: box.top + by.y });
+interface Offset {
+  x: number;
+  y: number;
+}
+const shifted = (box: Box, by: Offset): Box => ({ ...box, left: box.left + by.x, top: box.top + by.y });
 
-/** Where an element was laid out in an eye's page, without the way that it has gone since. */
+/** Where an element was laid out in an eye's page, without its offset. */
 function laidOut(element: HTMLElement, eye: HTMLElement): Box {
   const box = { left: element.offsetLeft, top: element.offsetTop, width: element.offsetWidth, height: element.offsetHeight };
   for (let above = element.offsetParent; above instanceof HTMLElement && above !== eye; above = above.offsetParent) {
@@ -113,28 +119,39 @@ function laidOut(element: HTMLElement, eye: HTMLElement): Box {
   return box;
 }
 
+export interface Offsets {
+  note: Offset;
+  caption: Offset;
+}
+export const kNoOffsets: Offsets = { note: { x: 0, y: 0 }, caption: { x: 0, y: 0 } };
+const kSelectors = { note: '.top', caption: '.caption' };
+
 /** Lets the words of an eye's page give way, and remembers how far. */
 export class WordPlaces {
-  private gone = kWords.map(() => ({ text: '', by: { x: 0, y: 0 } }));
+  private texts = { note: '', caption: '' };
+  private offsets = kNoOffsets;
 
-  /** How far notes and captions give way, in pixels. The notes first: they are smaller. */
-  give(eye: HTMLElement, place: EyePlace, seen: readonly Box[]): Way[] {
-    const words = kWords.map((name) => eye.querySelector<HTMLElement>(name));
-    this.gone = this.gone.map(({ text, by }, k) => {
-      const now = words[k]?.textContent ?? '';
-      return { text: now, by: now === text ? by : { x: 0, y: 0 } };
-    });
+  /** In pixels. */
+  give(eye: HTMLElement, place: EyePlace, seen: readonly Box[]): Offsets {
+    const standing = standingWords(eye, place);
     const gap = eye.querySelector<HTMLElement>('footer')?.offsetLeft ?? 0;  // the page's margin
-    words.forEach((element, k) => {
-      if (!element || element.offsetHeight === 0) return;
-      const usual = laidOut(element, eye);
-      const fixed = words.flatMap((other, i) => (other && i !== k ? [moved(laidOut(other, eye), this.gone[i]!.by)] : []));
-      const bounds = { left: gap, top: gap, width: place.seenWidth - 2 * gap, height: place.seenHeight - 2 * gap };
-      const around = { bounds, fixed: [...fixed, ...standing(eye, place)], seen, gap };
-      const box = freePlace(around, usual, moved(usual, this.gone[k]!.by));
-      this.gone[k]!.by = { x: box.left - usual.left, y: box.top - usual.top };
-    });
-    return this.gone.map(({ by }) => by);
+    const bounds = { left: gap, top: gap, width: place.seenWidth - 2 * gap, height: place.seenHeight - 2 * gap };
+    const element = (words: keyof Offsets): HTMLElement | null => eye.querySelector<HTMLElement>(kSelectors[words]);
+    for (const words of ['note', 'caption'] as const) {
+      const text = element(words)?.textContent ?? '';
+      if (text !== this.texts[words]) this.offsets = { ...this.offsets, [words]: kNoOffsets[words] };
+      this.texts[words] = text;
+    }
+    // Notes give way first: they are smaller.
+    for (const [words, others] of [['note', 'caption'], ['caption', 'note']] as const) {
+      const [own, other] = [element(words), element(others)];
+      if (!own || own.offsetHeight === 0) continue;
+      const fixed = other ? [...standing, shifted(laidOut(other, eye), this.offsets[others])] : standing;
+      const usual = laidOut(own, eye);
+      const box = freePlace({ bounds, fixed, seen, gap }, usual, shifted(usual, this.offsets[words]));
+      this.offsets = { ...this.offsets, [words]: { x: box.left - usual.left, y: box.top - usual.top } };
+    }
+    return this.offsets;
   }
 }
 
@@ -146,28 +163,30 @@ const kEnd_px = 4;
 /** Turns to what a long caption has not shown yet, once what it shows has been read; after the last lines come the first. */
 export class CaptionPages {
   private text = '';
-  private turned = 0;
+  private turnedAt = 0;
+  private top = 0;
 
-  /** `now`: milliseconds. */
-  turn(captions: Iterable<HTMLElement>, now: number): void {
-    const [first] = captions;
+  /** `now`: milliseconds. Captions that a visitor has scrolled stay for as long again. */
+  turn(captions: NodeListOf<HTMLElement>, now: number): void {
+    const first = captions[0];
+    const text = first?.textContent ?? '';
+    const isNew = text !== this.text;
+    this.text = text;
     if (!first) return;
     const { scrollHeight, clientHeight, scrollTop } = first;
-    const text = first.textContent ?? '';
-    const again = text !== this.text;
     const letters = (text.length * clientHeight) / scrollHeight;
-    if (!again && now - this.turned < 1000 * Math.max(letters / kLetters_per_s, kLeast_s)) return;
-    this.text = text;
-    this.turned = now;
+    if (!isNew && now - this.turnedAt < 1000 * Math.max(letters / kLetters_per_s, kLeast_s)) return;
+    this.turnedAt = now;
+    const isScrolled = !isNew && Math.abs(scrollTop - this.top) > kEnd_px;
+    const isAtEnd = scrollTop + clientHeight >= scrollHeight - kEnd_px;
     const line = parseFloat(getComputedStyle(first).lineHeight) || 0;
-    const last = scrollTop + clientHeight >= scrollHeight - kEnd_px;
-    const top = again || last ? 0 : scrollTop + clientHeight - line;
-    for (const one of captions) one.scrollTo({ top, behavior: 'smooth' });
+    this.top = isScrolled ? scrollTop : isNew || isAtEnd ? 0 : Math.min(scrollTop + clientHeight - line, scrollHeight - clientHeight);
+    for (const one of captions) one.scrollTop = this.top;
   }
 }
 
 /** What does not give way. */
-function standing(eye: HTMLElement, place: EyePlace): Box[] {
+function standingWords(eye: HTMLElement, place: EyePlace): Box[] {
   const of = eye.getBoundingClientRect();
   const [across, down] = [place.seenWidth / place.width, place.seenHeight / place.height];
   return [...eye.querySelectorAll('.title, .gauges, .inset, .buttons button, aside')].map((one) => {

@@ -21,6 +21,7 @@ import type { Headset, HeadsetMode } from '../xr/headset';
 const kReportEvery_ms = 1_000;
 /** Captions need not follow each picture. */
 const kSeenEvery_ms = 250;
+/** Around what words do not cover. */
 const kAround_m = 0.03;
 const kHoverEvery_ms = 100;
 /** A name still belongs visibly to the pointed place within this share of the picture's height. */
@@ -409,7 +410,7 @@ export class KioskSession {
     }
     if (now - this.seenAt > kSeenEvery_ms) {
       this.seenAt = now;
-      this.seen = this.picture.world.workplaces.flatMap((box) => this.picture.rectangleOf(box.clone().expandByScalar(kAround_m)) ?? []);
+      this.seen = this.picture.world.seen.flatMap((box) => this.picture.rectangleOf(box.clone().expandByScalar(kAround_m)) ?? []);
     }
     this.changed({
       state: this.state,

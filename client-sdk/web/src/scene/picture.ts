@@ -184,16 +184,16 @@ export class Picture {
   pixelOf(p: Vector3, place = 0): { x: number; y: number } | null {
     return pixelOf(this.cameraOf(place), this.width, this.height, p);
   }
-  /** Where a box is seen, by either eye, in the pixels of a place; null: it is not seen whole. */
+  /** Where a box is seen, by either eye, in the pixels of a place; null: it is behind the camera. */
   rectangleOf(box: Box3): { left: number; top: number; width: number; height: number } | null {
     const seen = new Box2();
     for (let place = 0; place < this.places.length; ++place) {
       for (const p of cornersOf(box)) {
         const at = this.pixelOf(p, place);
-        if (!at) return null;
-        seen.expandByPoint(new Vector2(at.x, at.y));
+        if (at) seen.expandByPoint(new Vector2(at.x, at.y));
       }
     }
+    if (seen.isEmpty()) return null;
     const [width, height] = seen.getSize(new Vector2()).toArray();
     return { left: seen.min.x, top: seen.min.y, width, height };
   }

@@ -149,21 +149,32 @@ function nearestPlace(standing: Standing, p: Vector3): Vector3 {
   return standing.box.clampPoint(p.clone().applyMatrix4(standing.X.clone().invert()), new Vector3()).applyMatrix4(standing.X);
 }
 
-/** Where hands work in this step: they, what they can take, and where that belongs; hands first. Empty: there is nothing to take. */
-export function workplaces(
+/** More boxes would take long to give way to. */
+const kMostSeen = 16;
+
+export interface Workplace {
+  /** Hands, what they can take, and where that belongs; what counts most first. */
+  seen: Box3[];
+  /** All of that, and where a crank leads a hand; empty: there is nothing to take. */
+  work: Box3;
+}
+
+/** Where hands work in this step. */
+export function workplace(
   hands: readonly WorkingHand[],
   affordances: readonly Affordance[],
   agents: readonly string[],
   standing: (object: number) => Standing | null,
-): Box3[] {
-  const out: Box3[] = [];
+): Workplace {
+  const places: Box3[] = [];
+  const arcs: Box3[] = [];
   const enabled = affordances.filter((a) => isEnabled(a, agents));
   const base = (a: Affordance): Matrix4 => (a.base == null ? new Matrix4() : (standing(a.base)?.X.clone() ?? new Matrix4()));
   const addGoals = (object: number): void => {
     for (const goal of enabled) {
       if ((goal.kind !== 'placed' && goal.kind !== 'brought') || goal.object !== object) continue;
       const p = new Vector3(...goal.AJ.slice(0, 3) as [number, number, number]).applyMatrix4(base(goal));
-      out.push(new Box3(p.clone().subScalar(kAroundGoal_m), p.addScalar(kAroundGoal_m)));
+      places.push(new Box3(p.clone().subScalar(kAroundGoal_m), p.addScalar(kAroundGoal_m)));
     }
   };
   const addArc = (hand: WorkingHand, object: number): void => {
@@ -174,7 +185,7 @@ export function workplaces(
       const p = hand.box.getCenter(new Vector3()).applyMatrix4(X.clone().invert());
       for (const turn of [-Math.PI / 2, -Math.PI / 4, Math.PI / 4, Math.PI / 2]) {
         const q = p.clone().applyAxisAngle(new Vector3(0, 0, 1), turn).applyMatrix4(X);
-        out.push(new Box3(q.clone().sub(half), q.add(half)));
+        arcs.push(new Box3(q.clone().sub(half), q.add(half)));
       }
     }
   };
@@ -183,19 +194,22 @@ export function workplaces(
     const object = standing(affordance.object);
     if (!object || object.box.isEmpty()) continue;
     if (hands.length === 0) {
-      out.push(object.box.clone().applyMatrix4(object.X));
+      places.push(object.box.clone().applyMatrix4(object.X));
       addGoals(affordance.object);
     }
     for (const hand of hands) {
       const p = nearestPlace(object, hand.box.getCenter(new Vector3()));
       if (!hand.holding) {
-        out.push(new Box3(p, p.clone()));
+        places.push(new Box3(p, p.clone()));
       } else if (hand.box.distanceToPoint(p) <= kHeld_m) {
-        out.push(new Box3(p, p.clone()));
+        places.push(new Box3(p, p.clone()));
         addGoals(affordance.object);
         addArc(hand, affordance.object);
       }
     }
   }
-  return out.length > 0 ? [...hands.map((hand) => hand.box), ...out] : out;
+  const seen = [...hands.map((hand) => hand.box), ...places];
+  const work = new Box3();
+  if (places.length > 0) for (const box of [...seen, ...arcs]) work.union(box);
+  return { seen: seen.slice(0, kMostSeen), work };
 }

@@ -30,7 +30,7 @@ import { appendDrops, appendParticles, appendSplash, Particles, type Particle } 
 import { riverReach } from './river';
 import { Ropes } from './ropes';
 import { kHaze, kSunColour, kSunIrradiance, kToSun } from './shaders';
-import { workplaces, type Standing } from './step_view';
+import { workplace, type Standing } from './step_view';
 import { Streams } from './streams';
 
 const kLeastLevel_m = 0.002;
@@ -74,9 +74,9 @@ export class WorldScene {
   /** The usual view of this world. */
   camera: Camera = frameBox(new Box3(), new Vector3(0.2, 0.27, 1), (40 * Math.PI) / 180);
   /** Where hands work; empty: nowhere. */
-  readonly work = new Box3();
-  /** Its parts: hands, what they can take, goals. */
-  workplaces: Box3[] = [];
+  work = new Box3();
+  /** What words do not cover. */
+  seen: Box3[] = [];
   /** The thing that a free hand is about to touch, and where. */
   nearHand: { object: number; p: Vector3 } | null = null;
   complete = false;
@@ -310,11 +310,10 @@ export class WorldScene {
       const placed = this.placedOf(object);
       return placed ? { X: placed.group.matrix, box: placed.model.box } : null;
     };
-    this.work.makeEmpty();
-    this.workplaces = [];
+    this.work = new Box3();
+    this.seen = working.map((hand) => hand.box);
     if (!presentation || !world) return;
-    if (!world.done) this.workplaces = workplaces(working, presentation.affordances, world.agents, poseOf);
-    for (const place of this.workplaces) this.work.union(place);
+    if (!world.done) ({ seen: this.seen, work: this.work } = workplace(working, presentation.affordances, world.agents, poseOf));
     let landing = this.ground ?? 0;
     const level = presentation.effects.find((e) => e.kind === 'level');
     if (level && this.waterHeight !== null) landing = this.waterHeight + (levelOf(presentation, frame, level.node) ?? 0);

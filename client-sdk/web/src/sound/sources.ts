@@ -74,6 +74,19 @@ function speedOf(state: KioskState, before: Frame | null, now: Frame, effect: Ef
   return Math.max(moved, was.q.angleTo(is.q) * effect.size) / step;
 }
 
+/** At its object; or else a spill where water sounds, and all others where something moves. A bowstring is where its effect says. */
+function placeOfEvent(state: KioskState, frame: Frame, event: WorldEvent): Vector3 | null {
+  const named = event.object === '' ? undefined : state.objects.find((o) => o.name === event.object);
+  const effects = state.presentation?.effects ?? [];
+  const bow = event.kind === 'fired' &&
+    effects.find((e) => e.kind === 'sound.bow' && (e.object == null || !named || e.object === named.index));
+  if (bow) return placeOf(state, frame, bow);
+  const water = !named && event.kind === 'spilled' && effects.find((e) => e.kind === 'sound.water');
+  if (water) return placeOf(state, frame, water);
+  const object = named ?? state.objects.find((o) => o.movable);
+  return object ? (poseOf(state, frame, object.index)?.p ?? null) : null;
+}
+
 export function soundSources(state: KioskState, before: Frame | null, now: Frame, events: readonly WorldEvent[]): SoundSource[] {
   const out: SoundSource[] = [];
   const effects = state.presentation?.effects ?? [];
@@ -91,12 +104,11 @@ export function soundSources(state: KioskState, before: Frame | null, now: Frame
   }
   events.forEach((event, number) => {
     const sound = kEvents[event.kind];
-    const object = state.objects.find((o) => o.name === event.object && event.object !== '') ?? state.objects.find((o) => o.movable);
-    const X = object && poseOf(state, now, object.index);
-    if (!sound || !X || (event.kind === 'spilled' && !(event.value > 0))) return;
+    const p = placeOfEvent(state, now, event);
+    if (!sound || !p || (event.kind === 'spilled' && !(event.value > 0))) return;
     const gain = sound[1] * (event.kind === 'spilled' ? Math.min(Math.sqrt(event.value / 0.002), 1) : 1);
     const id = `event ${event.tick} ${event.kind} ${event.object} ${number}`;
-    out.push({ id, kind: sound[0], p: X.p, gain, pitch: sound[2], near: kNearest_m, looped: false });
+    out.push({ id, kind: sound[0], p, gain, pitch: sound[2], near: kNearest_m, looped: false });
   });
   return out;
 }

@@ -42,7 +42,7 @@ struct DeviceDetails {
   double temperature = -1;  ///< 0 cold to 1 too hot; below 0: not known
   bool testing = false;
   double test_force_n = 0;     ///< the largest of the last test, on hand or finger
-  double test_energy_j = 0;    ///< what the hand was given beyond what it gave in that test
+  double test_energy_j = 0;    ///< what the device gave the hand in that test, less what it received
   std::uint64_t answered = 0;  ///< id of the last request; 0: none yet
   std::string refusal{};       ///< why that was not done; empty: it was. At most 255 bytes
 };
