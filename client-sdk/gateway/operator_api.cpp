@@ -273,9 +273,9 @@ ApiJson accounts_json(const Accounts& accounts) {
   return {{"accounts", list}};
 }
 
-/// A kiosk that no browser uses is joined first, which takes a moment. With an order, a device is asked.
-void look_at_devices(GatewaySite& site, const std::string& kiosk, const std::optional<client::DeviceRequest>& order,
-                     const Done& done) {
+/// A kiosk that no browser uses is joined first, which takes a moment. `order`: what a device is asked; null: nothing.
+void look_at_devices(GatewaySite& site, const std::string& kiosk,
+                     const std::shared_ptr<const client::DeviceRequest>& order, const Done& done) {
   const auto hub = site.hub_of(kiosk);
   if (!hub) return done(refusal(503, "too many kiosks are in use", "try again later"));
   const auto look = [hub, order]() -> std::optional<HttpAnswer> {
@@ -295,7 +295,8 @@ bool post_to_kiosk(GatewaySite& site, const std::string& kiosk, const std::strin
   if (!site.knows_kiosk(kiosk)) return answer(unknown_kiosk(kiosk)), true;
   if (verb == "device") {
     const auto order = parse_device_order(body);
-    return order ? look_at_devices(site, kiosk, *order, answer) : answer(refusal(order.error())), true;
+    if (!order) return answer(refusal(order.error())), true;
+    return look_at_devices(site, kiosk, std::make_shared<const client::DeviceRequest>(*order), answer), true;
   }
   const auto until_then = with_end(site, kiosk, verb, body, answer);
   if (!until_then) return answer(refusal(until_then.error())), true;
@@ -354,7 +355,7 @@ bool answer_api_get(GatewaySite& site, const Session& session, const HttpRequest
   if (answer_studio_get(site, request, done)) return true;
   if (const auto at = kiosk_and_verb(path); operates && at && at->second == "devices") {
     if (!site.knows_kiosk(at->first)) return done(unknown_kiosk(at->first)), true;
-    return look_at_devices(site, at->first, std::nullopt, done), true;
+    return look_at_devices(site, at->first, nullptr, done), true;
   }
   const bool for_operators = path == "/api/audit" || path == "/api/accounts" || path == "/api/exhibits";
   if (!for_operators) return false;
