@@ -9,7 +9,7 @@
 namespace mechane::haptic {
 
 struct WorkspaceConfig {
-  client::DevicePlace place;
+  client::DevicePlace place{};
   std::uint32_t clutch_button =
       0;  ///< bits of mechane_device_state.buttons; while one is down, the hand stays where it is
 };
