@@ -1,11 +1,12 @@
 import { describe, expect, it } from 'vitest';
-import { freePlace, type Box } from '../src/kiosk/place';
+import { freePlace } from '../src/kiosk/place';
+import type { PageBox } from '../src/scene/picture';
 
-const bounds: Box = { left: 10, top: 10, width: 1260, height: 700 };
-const usual: Box = { left: 10, top: 590, width: 400, height: 120 };
-const buttons: Box = { left: 1100, top: 660, width: 160, height: 50 };
-const around = (...seen: Box[]) => ({ bounds, fixed: [buttons], seen, gap: 10 });
-const apart = (a: Box, b: Box): boolean =>
+const bounds: PageBox = { left: 10, top: 10, width: 1260, height: 700 };
+const usual: PageBox = { left: 10, top: 590, width: 400, height: 120 };
+const buttons: PageBox = { left: 1100, top: 660, width: 160, height: 50 };
+const around = (...seen: PageBox[]) => ({ bounds, fixed: [buttons], seen, gap: 10 });
+const apart = (a: PageBox, b: PageBox): boolean =>
   a.left + a.width <= b.left || b.left + b.width <= a.left || a.top + a.height <= b.top || b.top + b.height <= a.top;
 
 describe('a caption', () => {
@@ -43,7 +44,7 @@ describe('a caption', () => {
     const next = (most: number): number => (state = (state * 1103515245 + 12345) % 2147483648) % most;
     for (let i = 0; i < 300; ++i) {
       const seen = Array.from({ length: 4 }, () => ({ left: next(1200), top: next(650), width: 20 + next(300), height: 20 + next(200) }));
-      const isFree = (box: Box): boolean => [...seen, buttons].every((other) => apart(box, other));
+      const isFree = (box: PageBox): boolean => [...seen, buttons].every((other) => apart(box, other));
       let some = false;
       for (let x = bounds.left; x <= 870; x += 20) for (let y = bounds.top; y <= 590; y += 20)
         some ||= isFree({ ...usual, left: x - 10, top: y - 10, width: 420, height: 140 });  // with the gap around it

@@ -1,21 +1,15 @@
 // Where words stand so that they lie over no hand, nothing that can be taken and no goal: client-sdk/draw/text/overlay_place.cpp.
+import type { PageBox } from '../scene/picture';
 import type { EyePlace } from '../scene/stereo';
-
-export interface Box {
-  left: number;
-  top: number;
-  width: number;
-  height: number;
-}
 
 /** What is on the page around some words. */
 export interface Surroundings {
   /** Where they may stand. */
-  bounds: Box;
+  bounds: PageBox;
   /** Other words, and buttons. */
-  fixed: readonly Box[];
+  fixed: readonly PageBox[];
   /** Must stay visible; the most important first. */
-  seen: readonly Box[];
+  seen: readonly PageBox[];
   /** To both. */
   gap: number;
 }
@@ -29,26 +23,26 @@ const kReturns = 3;
 /** Of a page's pixels, which are rounded. */
 const kRounding = 0.5;
 
-const right = (box: Box): number => box.left + box.width;
-const below = (box: Box): number => box.top + box.height;
-const enlarged = (box: Box, by: number): Box => ({
+const right = (box: PageBox): number => box.left + box.width;
+const below = (box: PageBox): number => box.top + box.height;
+const enlarged = (box: PageBox, by: number): PageBox => ({
   left: box.left - by, top: box.top - by, width: box.width + 2 * by, height: box.height + 2 * by,
 });
 
-const isWithin = (box: Box, bounds: Box): boolean =>
+const isWithin = (box: PageBox, bounds: PageBox): boolean =>
   box.left >= bounds.left - kRounding && box.top >= bounds.top - kRounding &&
   right(box) <= right(bounds) + kRounding && below(box) <= below(bounds) + kRounding;
 
-function sharedArea(a: Box, b: Box): number {
+function sharedArea(a: PageBox, b: PageBox): number {
   const across = Math.min(right(a), right(b)) - Math.max(a.left, b.left);
   const down = Math.min(below(a), below(b)) - Math.max(a.top, b.top);
   return across > 0 && down > 0 ? across * down : 0;
 }
-const covered = (box: Box, others: readonly Box[]): number => others.reduce((sum, other) => sum + sharedArea(box, other), 0);
+const covered = (box: PageBox, others: readonly PageBox[]): number => others.reduce((sum, other) => sum + sharedArea(box, other), 0);
 
 /** The way from the usual place, and what it covers of the middle; in heights of the page. */
-function costOf(box: Box, usual: Box, bounds: Box): number {
-  const middle: Box = {
+function costOf(box: PageBox, usual: PageBox, bounds: PageBox): number {
+  const middle: PageBox = {
     left: bounds.left + kMiddleFrom * bounds.width,
     top: bounds.top + kMiddleFrom * bounds.height,
     width: (1 - 2 * kMiddleFrom) * bounds.width,
@@ -59,13 +53,15 @@ function costOf(box: Box, usual: Box, bounds: Box): number {
 }
 
 /** The cheapest place over no obstacle. A free place can be pushed left and up until it touches, so these places are enough. */
-function cheapest(bounds: Box, usual: Box, edges: readonly Box[], obstacles: readonly Box[], cost: (box: Box) => number): Box | null {
+function cheapest(
+  bounds: PageBox, usual: PageBox, edges: readonly PageBox[], obstacles: readonly PageBox[], cost: (box: PageBox) => number,
+): PageBox | null {
   const { width, height } = usual;
   const beside = edges.flatMap((box) => [Math.ceil(right(box)), Math.floor(box.left - width)]);
   const aboveAndBelow = edges.flatMap((box) => [Math.ceil(below(box)), Math.floor(box.top - height)]);
   const xs = [usual.left, bounds.left, right(bounds) - width, ...beside];
   const ys = [usual.top, bounds.top, below(bounds) - height, ...aboveAndBelow];
-  let best: Box | null = null;
+  let best: PageBox | null = null;
   let least = Infinity;
   for (const top of ys) {
     for (const left of xs) {
@@ -81,22 +77,22 @@ function cheapest(bounds: Box, usual: Box, edges: readonly Box[], obstacles: rea
 
 /** The usual place if it is free with room to spare; else the last; else the cheapest free one; else the one that covers least, and of the
  *  least important. */
-export function freePlace({ bounds, fixed, seen, gap }: Surroundings, usual: Box, last: Box): Box {
-  const isFree = (box: Box): boolean => covered(box, seen) === 0 && covered(box, fixed) === 0;
+export function freePlace({ bounds, fixed, seen, gap }: Surroundings, usual: PageBox, last: PageBox): PageBox {
+  const isFree = (box: PageBox): boolean => covered(box, seen) === 0 && covered(box, fixed) === 0;
   if (covered(usual, seen.map((box) => enlarged(box, kReturns * gap))) === 0 && covered(usual, fixed) === 0) return usual;
   if (isFree(last) && isWithin(last, bounds)) return last;
   if (isFree(usual)) return usual;
   // Usual places keep the gap only to within a rounded pixel.
   const apart = fixed.filter((box) => box.width > 0 && box.height > 0).map((box) => enlarged(box, gap - 1));
   const away = seen.map((box) => enlarged(box, gap));
-  const cost = (box: Box): number => costOf(box, usual, bounds);
+  const cost = (box: PageBox): number => costOf(box, usual, bounds);
   // First the places that do not depend on what moves: words in one of these rest.
   const around = [...apart, ...away];
   const free = cheapest(bounds, usual, apart, around, cost) ?? cheapest(bounds, usual, around, around, cost);
   if (free) return free;
   for (let kept = seen.length; kept >= 0; --kept) {
     const rest = seen.slice(kept);
-    const areaFirst = (box: Box): number => covered(box, rest) + 0.001 * cost(box);
+    const areaFirst = (box: PageBox): number => covered(box, rest) + 0.001 * cost(box);
     const found = cheapest(bounds, usual, [...apart, ...seen], [...apart, ...seen.slice(0, kept)], areaFirst);
     if (found) return found;
   }
@@ -107,10 +103,10 @@ interface Offset {
   x: number;
   y: number;
 }
-const shifted = (box: Box, by: Offset): Box => ({ ...box, left: box.left + by.x, top: box.top + by.y });
+const shifted = (box: PageBox, by: Offset): PageBox => ({ ...box, left: box.left + by.x, top: box.top + by.y });
 
 /** Where an element was laid out in an eye's page, without its offset. */
-function laidOut(element: HTMLElement, eye: HTMLElement): Box {
+function laidOut(element: HTMLElement, eye: HTMLElement): PageBox {
   const box = { left: element.offsetLeft, top: element.offsetTop, width: element.offsetWidth, height: element.offsetHeight };
   for (let above = element.offsetParent; above instanceof HTMLElement && above !== eye; above = above.offsetParent) {
     box.left += above.offsetLeft;
@@ -132,7 +128,7 @@ export class WordPlaces {
   private offsets = kNoOffsets;
 
   /** In pixels. */
-  give(eye: HTMLElement, place: EyePlace, seen: readonly Box[]): Offsets {
+  give(eye: HTMLElement, place: EyePlace, seen: readonly PageBox[]): Offsets {
     const standing = standingWords(eye, place);
     const gap = eye.querySelector<HTMLElement>('footer')?.offsetLeft ?? 0;  // the page's margin
     const bounds = { left: gap, top: gap, width: place.seenWidth - 2 * gap, height: place.seenHeight - 2 * gap };
@@ -186,7 +182,7 @@ export class CaptionPages {
 }
 
 /** What does not give way. */
-function standingWords(eye: HTMLElement, place: EyePlace): Box[] {
+function standingWords(eye: HTMLElement, place: EyePlace): PageBox[] {
   const of = eye.getBoundingClientRect();
   const [across, down] = [place.seenWidth / place.width, place.seenHeight / place.height];
   return [...eye.querySelectorAll('.title, .gauges, .inset, .buttons button, aside')].map((one) => {

@@ -4,7 +4,7 @@ import type { CameraHand } from '../camera/camera_hand';
 import { sightOf, type Sight } from '../camera/reach';
 import { cornersOf } from '../scene/camera';
 import { underFinger, placeToTake, type UnderFinger } from '../scene/picking';
-import { Picture, type InsetPlace } from '../scene/picture';
+import { Picture, type PageBox } from '../scene/picture';
 import { inPlace, type StereoSetup } from '../scene/stereo';
 import { SoundPlayer } from '../sound/player';
 import { soundSources } from '../sound/sources';
@@ -13,7 +13,6 @@ import { decodeFrame, type Frame } from '../wire/frame';
 import { FrameHistory, kDelay } from '../wire/history';
 import { eventOf, kNothingKnown, parseMessage, reduce, type KioskState, type WorldEvent } from '../wire/messages';
 import { drawAid } from './aid';
-import type { Box } from './place';
 import { KeyHand } from './keys';
 import { PointerIn } from './pointer';
 import type { Headset, HeadsetMode } from '../xr/headset';
@@ -52,10 +51,10 @@ export interface Shown {
   live: boolean;
   label: Label | null;
   /** What captions do not cover: hands, what they can take, goals; in the pixels of an eye's place. */
-  seen: Box[];
+  seen: PageBox[];
   things: Thing[];
   hovering: boolean;
-  inset: { kind: 'detail' | 'whole'; place: InsetPlace } | null;
+  inset: { kind: 'detail' | 'whole'; place: PageBox } | null;
   /** Things are still being fetched. */
   loading: boolean;
   /** A visitor's hand before a camera, while it is used. */
@@ -84,9 +83,9 @@ export class KioskSession {
   private focus: { object: number; place: { x: number; y: number } | null; at: number } | null = null;
   private reportAt = 0;
   private seenAt = 0;
-  private seen: Box[] = [];
+  private seen: PageBox[] = [];
   private lastAt = 0;
-  private corner: InsetPlace | null = null;
+  private corner: PageBox | null = null;
   /** In a page within another that does not show it now; and before the page has a size. */
   private hidden = true;
   private muted = false;
@@ -198,7 +197,7 @@ export class KioskSession {
     this.hand?.end();
     this.hand = null;
   }
-  resize(width: number, height: number, corner: InsetPlace | null): void {
+  resize(width: number, height: number, corner: PageBox | null): void {
     this.hidden = width === 0 || height === 0;
     if (this.hidden) return;
     this.picture.resize(width, height);

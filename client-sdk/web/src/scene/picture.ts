@@ -22,7 +22,7 @@ const kSkyBlur = 0.02;
 const kSkyLight_px = 64;
 
 /** Pixels of the page, from its upper left corner. */
-export interface InsetPlace {
+export interface PageBox {
   left: number;
   top: number;
   width: number;
@@ -54,7 +54,7 @@ export class Picture {
   /** Between the eyes. */
   readonly camera = new PerspectiveCamera();
   /** What the corner shows now. */
-  inset: { kind: 'detail' | 'whole'; place: InsetPlace } | null = null;
+  inset: { kind: 'detail' | 'whole'; place: PageBox } | null = null;
   /** Where words are written and fingers are looked for: one place, or one for each eye. */
   places: EyePlace[];
   /** A mesh file has come, or did not: for a page that draws only when something has changed. */
@@ -137,7 +137,7 @@ export class Picture {
   }
 
   /** Once a picture; milliseconds. `dragging`: what a pointer holds must stay under it. `corner`: where a close-up may be. */
-  draw(frame: Frame | null, now: number, dragging: boolean, corner: InsetPlace | null): void {
+  draw(frame: Frame | null, now: number, dragging: boolean, corner: PageBox | null): void {
     const interval = now - this.last;
     if (this.last > 0) this.intervals.push(interval);
     if (this.intervals.length > 120) this.intervals.shift();
@@ -185,7 +185,7 @@ export class Picture {
     return pixelOf(this.cameraOf(place), this.width, this.height, p);
   }
   /** Where a box is seen, by either eye, in the pixels of a place; null: it is behind the camera. */
-  rectangleOf(box: Box3): { left: number; top: number; width: number; height: number } | null {
+  rectangleOf(box: Box3): PageBox | null {
     const seen = new Box2();
     for (let place = 0; place < this.places.length; ++place) {
       for (const p of cornersOf(box)) {
@@ -249,7 +249,7 @@ export class Picture {
   }
 
   /** In a part of the page, or in a corner of that part. */
-  private render(camera: PerspectiveCamera, within: EyePlace, inset: InsetPlace | null): void {
+  private render(camera: PerspectiveCamera, within: EyePlace, inset: PageBox | null): void {
     const { renderer } = this;
     const [across, down] = [within.width / within.seenWidth, within.height / within.seenHeight];
     const part = inset ?? { left: 0, top: 0, width: within.seenWidth, height: within.seenHeight };
@@ -274,7 +274,7 @@ export class Picture {
     renderer.setScissorTest(false);
   }
 
-  private insetFor(corner: InsetPlace | null): Picture['inset'] {
+  private insetFor(corner: PageBox | null): Picture['inset'] {
     // Where every pixel costs, the whole machine is not drawn a second time.
     const affords = this.governor.quality.name !== 'least';
     const kind = this.world.detail() ? 'detail' : this.stepView.isNarrow && affords ? 'whole' : null;
