@@ -338,7 +338,7 @@ std::string parameter_default(const state::ParameterType& parameter) {
   switch (parameter.kind) {
     case state::ParameterKind::number:
     case state::ParameterKind::numbers:
-      return fmt::format("{}", parameter.default_value);
+      return parameter.has_default() ? fmt::format("{}", parameter.default_value) : "";
     case state::ParameterKind::boolean:
       return parameter.default_value != 0 ? "true" : "false";
     default:

@@ -121,6 +121,7 @@ constexpr state::ParameterType kGearParameters[] = {
     kJoint2,
     {.name = "ratio",
      .summary = "how far joint2 goes for 1 of joint1, in rad or m; below 0: the other way",
+     .default_value = state::kNoDefault,
      .min = -1e4,
      .max = 1e4},
     {.name = "teeth",

@@ -58,12 +58,17 @@ inline constexpr state::ParameterType kEffortBody{.name = "body",
                                                   .summary = "the body that a hand moves",
                                                   .required = true,
                                                   .reference = state::Reference::body};
-inline constexpr state::ParameterType kEffortForce{
-    .name = "force", .unit = "N", .summary = "enough from this force of the hand on, as felt", .min = 0, .max = 1e4};
+inline constexpr state::ParameterType kEffortForce{.name = "force",
+                                                   .unit = "N",
+                                                   .summary = "enough from this force of the hand on, as felt",
+                                                   .default_value = state::kNoDefault,
+                                                   .min = 0,
+                                                   .max = 1e4};
 inline constexpr state::ParameterType kEffortTravel{
     .name = "travel",
     .unit = "m, rad of a hinge",
     .summary = "enough from this way on; with force: one of them is enough",
+    .default_value = state::kNoDefault,
     .min = 0,
     .max = 1e4};
 inline constexpr state::ParameterType kEffortAxis =

@@ -67,8 +67,8 @@ const AgentKind& surface_kind() {
   static const AgentKind kKind{
       {"touch.surface",
        "While it is on, a body feels otherwise to hands; a hand that touches it goes on feeling what it met, until it "
-       "leaves. Of two that are on, the later in `agents` counts, with all its keys; one on the body itself comes "
-       "first",
+       "leaves. Of two that are on, the later in `agents` counts, with all its keys; one that is written on the body "
+       "itself is earlier than those",
        kSurfaceParameters, kSurfaceValues},
       make_surface};
   return kKind;

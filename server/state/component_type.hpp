@@ -25,6 +25,9 @@ enum class ParameterKind {
 /// joints before a dot, and quantities after "quantity.".
 enum class Reference { none, body, joint, agent, activity, quantity, machine, expression };
 
+/// A default of numbers that have none: where the key is not written, something else counts.
+inline constexpr double kNoDefault = std::numeric_limits<double>::quiet_NaN();
+
 struct ParameterType {
   std::string_view name;
   ParameterKind kind = ParameterKind::number;
@@ -37,6 +40,9 @@ struct ParameterType {
   std::size_t count = 0;                  ///< of `numbers`
   Reference reference = Reference::none;  ///< of a text and of every one of `texts`
   std::string_view default_text = {};     ///< of numbers without a default of their own: what counts instead, in words
+
+  /// Of numbers: a default outside the limits, or none, is no value that authors could have written.
+  [[nodiscard]] constexpr bool has_default() const { return default_value >= min && default_value <= max; }
 };
 
 /// A value that quantities can read as "<COMPONENT>.<name>".
@@ -93,7 +99,12 @@ inline constexpr double kFarthest_m = 1e4;
 /// A parameter of one number: a position of a joint, in m, or in rad of a hinge.
 [[nodiscard]] constexpr ParameterType joint_position(std::string_view name, std::string_view unit,
                                                      std::string_view summary) {
-  return {.name = name, .unit = unit, .summary = summary, .min = -kFarthest_m, .max = kFarthest_m};
+  return {.name = name,
+          .unit = unit,
+          .summary = summary,
+          .default_value = kNoDefault,
+          .min = -kFarthest_m,
+          .max = kFarthest_m};
 }
 
 struct ComponentType {

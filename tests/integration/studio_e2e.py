@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -21,6 +22,21 @@ f 3 4 8 7
 f 1 3 7 5
 f 2 6 8 4
 """
+
+
+def docs_in(schema):
+    """All explanations of keys and types, at any depth."""
+    inner = schema.values() if isinstance(schema, dict) else schema if isinstance(schema, list) else []
+    own = {schema["doc"]} if isinstance(schema, dict) and schema.get("doc") else set()
+    return own.union(*map(docs_in, inner))
+
+
+def docs_with_greek():
+    """Those that the studio's modules have in Greek; a long one stands there in pieces."""
+    help_folder = ROOT / "client-sdk/web/src/studio/help"
+    text = "".join((help_folder / name).read_text() for name in ("docs_greek.ts", "docs_greek_format.ts"))
+    entries = re.findall(r"^  \[?'(.+?)'\]?:\s+'[^']", re.sub(r"' \+\n +'", "", text), re.MULTILINE)
+    return {english.replace("\\'", "'") for english in entries}
 
 
 class Studio(WithGateway):
@@ -143,7 +159,9 @@ class Studio(WithGateway):
         library = self.got(eleni, "/api/studio/exhibits")
         self.assertEqual([one["name"] for one in library["exhibits"]], [SCREW])
         self.assertIn("lever-and-weight", [one["name"] for one in library["templates"]])
-        self.assertIn("geometry.rope", [agent["name"] for agent in self.got(eleni, "/api/studio/schema")["agents"]])
+        schema = self.got(eleni, "/api/studio/schema")
+        self.assertIn("geometry.rope", [agent["name"] for agent in schema["agents"]])
+        self.assertEqual(docs_in(schema), docs_with_greek(), "explanations without Greek, or Greek ones that no explanation has")
 
         view = self.posted(eleni, "/api/studio/drafts", {"name": SCREW, "from": f"exhibit:{SCREW}"})
         self.assertEqual((view["revision"], view["canUndo"]), (0, False))

@@ -13,6 +13,7 @@ from page_visitor import PageVisitor
 
 CRANE = ROOT / "scenarios/pulley-crane/pulley-crane.x3d"
 SIZE = (480, 360)  # the processor draws
+HAND_PROGRAM = 41021  # the test has a network of its own
 # One activity of each exhibit, whose good visit takes something; the village's signs are only touched.
 TOUR = ("archimedes-screw/use ktesibios-pump/use pulley-crane/use compound-pulley-crane/use catapult/use crossbow/use aiolos-sphere/use "
         "odometer/use").split()
@@ -24,9 +25,10 @@ def scenario_of(name):
 
 @marked("draws")
 class Web(EndToEnd):
-    def address(self):
+    def address(self, *options):
         """Of a kiosk's page, at a gateway of its own."""
-        gateway = self.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--kiosk", "kiosk-1", "--state", self.folder / "state")
+        gateway = self.start("gateway", "gateway", "--listen", "127.0.0.1:0", "--kiosk", "kiosk-1", "--state", self.folder / "state",
+                             *options)
         wait_until(lambda: "\nready" in gateway.text() or not gateway.running(), 60, "the gateway is ready")
         self.assertTrue(gateway.running(), gateway.text())
         return re.search(r"kiosk kiosk-1: (\S+)", gateway.text()).group(1)
@@ -42,6 +44,12 @@ class Web(EndToEnd):
         told = json.loads(self.in_browser("turn", self.address()))
         self.assertEqual((told["first"], told["step"]), ("grasp", "lift"))
         self.assertIn("kiosk-1", server.text())
+
+    def test_a_crank_is_taken_turned_and_let_go_by_a_hand_before_a_camera(self):
+        self.server(scenario=CRANE, records=False)
+        address = self.address("--hand-program", str(HAND_PROGRAM))
+        told = json.loads(self.in_browser("camera_turn", address, str(HAND_PROGRAM), "DRUM", "0.3,0,0.65"))
+        self.assertGreater(told["turned"], 1.5)
 
     @contextlib.contextmanager
     def visitor_at(self, scenario, activity):

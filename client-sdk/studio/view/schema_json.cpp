@@ -174,8 +174,7 @@ SchemaJson parameter_json(const state::ParameterType& parameter) {
   } else if (parameter.kind == state::ParameterKind::boolean) {
     out["default"] = parameter.default_value != 0;
   } else if ((parameter.kind == state::ParameterKind::number || parameter.kind == state::ParameterKind::numbers) &&
-             parameter.default_value >= parameter.min && parameter.default_value <= parameter.max) {
-    // A default outside the limits says that the key is not written; it is not a value that authors can leave to the server.
+             parameter.has_default()) {
     out["default"] = parameter.default_value;
   }
   return out;

@@ -503,7 +503,7 @@ TEST(Schema, HasTheReadersTables) {
   EXPECT_EQ(schema["parts"].size(), parts().size());
   // What must be written, or one of several of which one must, has no usual value.
   const json gear = named(schema["agents"], "geometry.gear");
-  for (const char* key : {"teeth", "radius"})
+  for (const char* key : {"ratio", "teeth", "radius"})
     EXPECT_FALSE(named(gear["keys"], key).contains("default")) << key;
   EXPECT_EQ(named(gear["keys"], "efficiency")["default"], 1);
 }

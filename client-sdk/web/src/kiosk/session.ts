@@ -71,7 +71,7 @@ export class KioskSession {
   private state: KioskState = kNothingKnown;
   private online = false;
   private missed = false;
-  private frame: Frame | null = null;
+  frame: Frame | null = null;
   private frameAt = -Infinity;
   private malformed = 0;
   /** Frames in a row that could not be read. */

@@ -1,14 +1,11 @@
 // camera.mjs APP: a visitor's hand before a camera, in a real browser, against a stand-in of the gateway. The program that sees hands is
 // ours; so are the hands. The browser's camera is Chromium's own test picture.
 import assert from 'node:assert/strict';
-import { once } from 'node:events';
-import { WebSocketServer } from 'ws';
 import { boxesFile } from './boxes.mjs';
+import { HandProgram } from './hand_program.mjs';
 import { barriers, openBrowser, until } from './page.mjs';
-import { seenHand } from './seen_hand.mjs';
 import { StandIn } from './stand_in.mjs';
 
-const kCamera = { width: 640, height: 480, fov: 1.1 };
 const gateway = new StandIn(process.argv[2], 'boxes', 'BOX', boxesFile([
   { name: 'BOX', p: [0, 1.2, 0], half: [0.15, 0.15, 0.15], grey: 0.7 },
   { name: 'WALL', p: [0, 0, -3], half: [6, 6, 0.1], grey: 0.2 },
@@ -18,29 +15,7 @@ const hello = gateway.messages.find(({ type }) => type === 'hello');
 const origin = await gateway.start();
 const { browser, page, errors } = await openBrowser();
 
-/** A program beside the browser that sees a hand thirty times a second. */
-class Program {
-  pose = { p: [0, 0, 0.5], bent: 0.3 };
-  async start(port = 0) {
-    const handleProtocols = (all) => (all.has('mechane.hands.1') ? 'mechane.hands.1' : false);
-    this.server = new WebSocketServer({ host: '127.0.0.1', port, handleProtocols });
-    await once(this.server, 'listening');
-    this.server.on('connection', (socket) => {
-      const pace = setInterval(() => socket.send(this.message()), 33);
-      socket.on('close', () => clearInterval(pace));
-    });
-    return this.server.address().port;
-  }
-  message() {
-    return JSON.stringify({ version: 1, ...kCamera, hands: this.pose ? [seenHand(this.pose, kCamera)] : [] });
-  }
-  async stop() {
-    for (const socket of this.server.clients) socket.terminate();
-    this.server.close();
-    await once(this.server, 'close');
-  }
-}
-const program = new Program();
+const program = new HandProgram();
 const port = await program.start();
 
 async function open(finders, query = '') {
