@@ -213,7 +213,7 @@ def page_tour(options, out):
                                 text=True, env={**os.environ, "MECHANE_BIN": str(options.bin.resolve())})
         for line in tour.stderr:
             log.write(line)
-            if re.match(r"\S+/\S+ +(done|NOT DONE)", line):
+            if re.match(r"\S+ +(done|NOT DONE)", line):
                 print(f"  {line.strip()}", flush=True)
     return tour.wait() == 0
 

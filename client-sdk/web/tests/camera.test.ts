@@ -1,4 +1,4 @@
-import { Matrix4, PerspectiveCamera, Quaternion, Vector3 } from 'three';
+import { Box3, Matrix4, Quaternion, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { CameraHand, type CameraPage } from '../src/camera/camera_hand';
 import { jointsOf, kLandmarks, parsePicture, placeInCamera, sideOf, slopeOf, type CameraPicture } from '../src/camera/landmarks';
@@ -69,12 +69,8 @@ describe('a steady value', () => {
 });
 
 const kMiddle = along(0.3, 1, -0.2);
-function sight(): Sight {
-  const camera = new PerspectiveCamera(50, 4 / 3);
-  camera.position.copy(kMiddle).add(along(0, 0, 2));
-  camera.updateMatrixWorld(true);
-  return sightOf(camera.matrixWorld, camera.projectionMatrix, kMiddle);
-}
+const kWork = new Box3().setFromCenterAndSize(kMiddle, along(1.6, 0.8, 3));
+const sight = (): Sight => sightOf(new Matrix4().makeTranslation(0.3, 1, 1.8), kWork);
 
 describe('the reach of a hand', () => {
   const slope = { across: Math.tan(0.55), down: 0.75 * Math.tan(0.55) };
@@ -88,9 +84,9 @@ describe('the reach of a hand', () => {
     expect(moved.x).toBeGreaterThan(0);
     expect(moved.y / moved.x).toBeCloseTo(2, 9);
     expect(moved.z / moved.x).toBeCloseTo(-3, 9);
-    // 18 cm lead to the edge of what is seen.
+    // 18 cm lead past the edge of the work, which is 0.8 m away.
     const edge = reach.place(middle.clone().add(along(-0.18, 0, 0)), slope).sub(kMiddle).x;
-    expect(edge).toBeCloseTo(2 * Math.tan((25 * Math.PI) / 180) * (4 / 3), 6);
+    expect(edge).toBeCloseTo(1.3 * 0.8, 6);
   });
   it('stays where it is while something is held, and follows the view then', () => {
     const reach = new Reach();
@@ -175,7 +171,7 @@ describe('a hand before the camera', () => {
   });
   it('says where it is seen too seldom', () => {
     const { hand, page, show } = begin();
-    for (let k = 0; k < 30; ++k, page.now += 300) show({ p: [0, 0, 0.5], bent: 0.3 });
+    for (let k = 0; k < 30; ++k, page.now += 450) show({ p: [0, 0, 0.5], bent: 0.3 });
     expect(hand.state).toBe('slow');
     for (let k = 0; k < 30; ++k) show({ p: [0, 0, 0.5], bent: 0.3 });
     expect(hand.state).toBe('seen');
@@ -188,8 +184,8 @@ describe('a hand before the camera', () => {
   });
 });
 
-it('a view is as wide as its camera makes it', () => {
-  const camera = new PerspectiveCamera(90, 1);
-  camera.updateMatrixWorld(true);
-  expect(sightOf(new Matrix4(), camera.projectionMatrix, along(0, 0, -3)).half_m).toBeCloseTo(3, 9);
+it('a hand reaches what lies across the view, whichever way that looks', () => {
+  const aside = new Matrix4().makeRotationY(Math.PI / 2);
+  expect(sightOf(aside, kWork).half_m).toBeCloseTo(1.3 * 1.5, 9);
+  expect(sightOf(aside, kWork).p_WM.distanceTo(kMiddle)).toBeLessThan(1e-9);
 });

@@ -124,10 +124,10 @@ TEST(TrackedHand, OneThatIsLostFallsSilent) {
   EXPECT_FALSE(motion.at(TimePoint{1s}).has_value());
   motion.take(seen_by_browser(bent_hand(false)), TimePoint{1s});
   TrackedHand lost;
-  for (const auto after : {50ms, 150ms, 250ms})
+  for (const auto after : {50ms, 350ms, 550ms})
     motion.take(lost, TimePoint{1s + after});
-  EXPECT_TRUE(motion.at(TimePoint{1s + 199ms}).has_value());
-  EXPECT_FALSE(motion.at(TimePoint{1s + 201ms}).has_value());
+  EXPECT_TRUE(motion.at(TimePoint{1s + 499ms}).has_value());
+  EXPECT_FALSE(motion.at(TimePoint{1s + 501ms}).has_value());
 }
 
 TEST(TrackedHand, PointsOfNoHandChangeNothing) {

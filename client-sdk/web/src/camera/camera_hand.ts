@@ -21,12 +21,12 @@ export type CameraState = 'starting' | 'looking' | 'seen' | 'slow' | Trouble;
 const kPlaceSteady = { cutoff: 1.5, perSpeed: 8 };
 const kShapeSteady = { cutoff: 3, perSpeed: 20 };
 /** A hand that was away for longer begins anew. */
-const kAway_ms = 400;
+const kAway_ms = 600;
 /** The gateway takes 90 messages a second; cameras are slower, programs may not be. */
 const kSendEvery_ms = 1000 / 60;
 const kLeft_ms = 180_000;
-/** The gateway takes a hand that it has not heard of for 200 ms for gone. */
-const kSlow_ms = 170;
+/** The gateway takes a hand that it has not heard of for 500 ms for gone. */
+const kSlow_ms = 400;
 const kMean = 0.15;
 
 /** One hand over time. */

@@ -1,11 +1,13 @@
 // Where a hand before the camera is in the world. The camera stands at the screen and looks at the visitor, so a hand that goes to the
 // visitor's right goes to the right in the picture, and one that goes towards the screen goes into it. V is the picture's view: right,
 // up, back.
-import { Matrix4, Quaternion, Vector3 } from 'three';
+import { Box3, Matrix4, Quaternion, Vector3 } from 'three';
 import type { Slope } from './landmarks';
 
-/** A hand moves so far from its middle to reach the edge of the picture. */
+/** A hand moves so far from its middle to come past the edge of the work. */
 const kReach_m = 0.18;
+/** So much wider than the work is what a hand reaches. */
+const kAround = 1.3;
 /** Small work does not make hands slower than they are. */
 const kLeastGain = 1;
 /** The middle lies at least so far within the camera's picture, as a share of it, so that there is room on all sides. */
@@ -14,13 +16,13 @@ const [kNearest_m, kFarthest_m] = [0.25, 1.5];
 /** How soon the hand follows a view that moves, seconds. */
 const kFollow_s = 0.4;
 
-/** What the picture looks at. */
+/** How the picture looks at the work. */
 export interface Sight {
   /** Turns V to W. */
   R_WV: Quaternion;
   /** The middle of the work. */
   p_WM: Vector3;
-  /** Half of what is seen across, at the work. */
+  /** Half of what a hand reaches, across or up. */
   half_m: number;
 }
 
@@ -61,11 +63,15 @@ function middleFor(p_C: Vector3, slope: Slope): Vector3 {
   return new Vector3(within(p_C.x, x), within(p_C.y, y), z);
 }
 
-/** The view of a camera of three at the work. */
-export function sightOf(matrixWorld: Matrix4, projection: Matrix4, p_WM: Vector3): Sight {
-  const [p, R_WV] = [new Vector3(), new Quaternion()];
-  matrixWorld.decompose(p, R_WV, new Vector3());
-  const ahead = new Vector3(0, 0, -1).applyQuaternion(R_WV);
-  const distance = Math.max(p_WM.clone().sub(p).dot(ahead), 0.05);
-  return { R_WV, p_WM, half_m: distance / projection.elements[0]! };
+/** By the view of a camera of three. `work` is not empty, and must not depend on where hands are: a picture that follows a hand would lead
+ * it on and on. */
+export function sightOf(matrixWorld: Matrix4, work: Box3): Sight {
+  const R_WV = new Quaternion();
+  matrixWorld.decompose(new Vector3(), R_WV, new Vector3());
+  const size = work.getSize(new Vector3());
+  const along = (x: number, y: number): number => {
+    const axis = new Vector3(x, y, 0).applyQuaternion(R_WV);
+    return Math.abs(axis.x) * size.x + Math.abs(axis.y) * size.y + Math.abs(axis.z) * size.z;
+  };
+  return { R_WV, p_WM: work.getCenter(new Vector3()), half_m: (kAround * Math.max(along(1, 0), along(0, 1))) / 2 };
 }

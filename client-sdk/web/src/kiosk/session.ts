@@ -238,11 +238,9 @@ export class KioskSession {
     return placeToTake(this.picture.pickScene(), object, this.axleOf(object));
   }
 
-  /** What a hand before a camera reaches: the middle of the work, as the picture looks at it. */
+  /** What a hand before a camera reaches. */
   private sight(): Sight {
-    const { world, camera } = this.picture;
-    const work = world.work.isEmpty() ? world.interest : world.work;
-    return sightOf(camera.matrixWorld, camera.projectionMatrix, work.getCenter(new Vector3()));
+    return sightOf(this.picture.camera.matrixWorld, this.picture.world.within);
   }
   private axleOf(object: number): { p: Vector3; d: Vector3 } | null {
     const joint = this.state.presentation?.affordances.find(

@@ -306,14 +306,10 @@ export class WorldScene {
     this.ropes.show(frame.ropes);
     const working = this.hands.show(frame, eye);
     this.nearHand = this.named(frame);
-    const poseOf = (object: number): Standing | null => {
-      const placed = this.placedOf(object);
-      return placed ? { X: placed.group.matrix, box: placed.model.box } : null;
-    };
     this.work = new Box3();
     this.seen = working.map((hand) => hand.box);
     if (!presentation || !world) return;
-    if (!world.done) ({ seen: this.seen, work: this.work } = workplace(working, presentation.affordances, world.agents, poseOf));
+    if (!world.done) ({ seen: this.seen, work: this.work } = workplace(working, presentation.affordances, world.agents, this.standing));
     let landing = this.ground ?? 0;
     const level = presentation.effects.find((e) => e.kind === 'level');
     if (level && this.waterHeight !== null) landing = this.waterHeight + (levelOf(presentation, frame, level.node) ?? 0);
@@ -390,6 +386,16 @@ export class WorldScene {
       .map((p) => ({ object: p.object!.index, name: textIn(p.object!.title, language), X: p.group.matrix, box: p.model.box }));
   }
 
+  /** What can be worked on in this step, wherever hands are; never empty. */
+  get within(): Box3 {
+    const { presentation, world } = this.state ?? {};
+    const { work } = workplace([], presentation?.affordances ?? [], world?.agents ?? [], this.standing);
+    return [work, this.interest].find((box) => !box.isEmpty()) ?? new Box3(new Vector3(), new Vector3());
+  }
+  private standing = (object: number): Standing | null => {
+    const placed = this.placedOf(object);
+    return placed ? { X: placed.group.matrix, box: placed.model.box } : null;
+  };
   placedOf(object: number): Placed | null {
     return this.placed.find((p) => p.object?.index === object) ?? null;
   }
