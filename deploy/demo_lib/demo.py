@@ -7,7 +7,6 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import time
 import xml.etree.ElementTree
@@ -205,19 +204,6 @@ def tour(programs, options, out, device):
     return [line for line in log.splitlines() if " steps " in line]
 
 
-def page_tour(options, out):
-    """A visit of each exhibit through a page in a browser, by touch, with servers of its own. Whether each was completed."""
-    print("  a visit of each exhibit through a page, by touch: some minutes", flush=True)
-    with open(out / "tour-page.log", "w") as log:
-        tour = subprocess.Popen([sys.executable, "-B", ROOT / "tests/integration/web_e2e.py", "tour"], stdout=log, stderr=subprocess.PIPE,
-                                text=True, env={**os.environ, "MECHANE_BIN": str(options.bin.resolve())})
-        for line in tour.stderr:
-            log.write(line)
-            if re.match(r"\S+ +(done|NOT DONE)", line):
-                print(f"  {line.strip()}", flush=True)
-    return tour.wait() == 0
-
-
 def gather(out, visitors, replays):
     server = read_json(out / "server.json")
     reports = [read_json(out / f"{name}.json") for name in visitors]
@@ -298,7 +284,7 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--headless", action="store_true", help="pictures, no window")
-    parser.add_argument("--all", action="store_true", help="afterwards every visit of each exhibit, by each device; one through a page")
+    parser.add_argument("--all", action="store_true", help="afterwards every visit of every exhibit, by each simulated device")
     parser.add_argument("--domain", type=int, default=42)
     options = parser.parse_args()
     out = options.out.resolve()
@@ -333,8 +319,6 @@ def main():
         if programs.stop("server", 20) != 0:
             problems.append(f"the server ended badly: see {out / 'server.log'}")
         replays = replay_journals(programs, scenarios, out / "records", 1 if options.all else 2)
-        if options.all and not page_tour(options, out):
-            problems.append(f"not every visit through a page was completed: see {out / 'tour-page.log'}")
     finally:
         programs.stop_all()
     metrics, activities, missed, simd = gather(out, visitors, replays)
