@@ -1,6 +1,5 @@
-// Where the native display sees the things of the nine places, in places.txt: client-sdk/web/tests/places.test.ts compares the pages with it.
+// Where the native display sees the things of the nine places, in places.txt; client-sdk/web/tests/places.test.ts compares the pages.
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -8,20 +7,16 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "client-sdk/assets/mesh_files.hpp"
 #include "client-sdk/picture/box_corners.hpp"
 #include "client-sdk/picture/stereo.hpp"
-#include "client-sdk/recording/recorded_client.hpp"
-#include "client-sdk/scene/asset_library.hpp"
-#include "client-sdk/scene/scene_builder.hpp"
-#include "server/content/mesh_import.hpp"
 #include "tests/support/golden_rows.hpp"
+#include "tests/support/recorded_place.hpp"
 
 namespace mechane {
 namespace {
 
 constexpr double kAspect = 16.0 / 9;
-constexpr auto kIntoTheVisit = std::chrono::seconds(2);
+constexpr int kMoment = 2;
 
 std::vector<double> numbers(const Pose& X) {
   return {X.p.x(), X.p.y(), X.p.z(), X.R.x(), X.R.y(), X.R.z(), X.R.w()};
@@ -45,42 +40,27 @@ std::vector<double> seen_box(const picture::Camera& camera, const Eigen::Aligned
 
 /// What a page needs to show the place, and where its movable things are seen.
 void add_place(const std::string& name, std::vector<std::string>& rows) {
-  const std::filesystem::path root = test::source_folder();
-  recording::RecordedClient client(
-      recording::FrameRecording::open_file(root / "tests/golden/scenes" / (name + ".frames")).value(), {});
-  assets::MeshFiles files(root / "scenarios" / name, nullptr);
-  scene::AssetLibrary library([&](const std::string& uri) -> Expected<content::ImportedScene> {
-    return files.find(uri).and_then([](const auto& file) { return content::import_mesh(file); });
-  });
-  scene::SceneBuilder builder(library, "en");
-  client.advance(TimePoint{});
-  client.advance(TimePoint{} + kIntoTheVisit);
-  builder.set_presentation(client.presentation());
-  builder.set_manifest(client.objects());
-  client::Frame frame;
-  ASSERT_TRUE(client.newest_frame(frame));
-  const auto status = client.world_status();
-  const picture::Camera camera =
-      picture::for_screen(builder.build(&frame, &*status, client.state()).camera, {}, nullptr, kAspect);
-  for (const client::View& view : client.presentation()->views) {
+  test::RecordedPlace place(name);
+  const picture::Camera camera = place.scene(kMoment, kAspect).camera;
+  const auto presentation = place.client().presentation();
+  for (const client::View& view : presentation->views) {
     std::vector<double> seen = numbers(view.X_WV);
     seen.push_back(view.field_of_view_rad);
     rows.push_back(row(fmt::format("{}|view|{}", name, view.name), seen));
   }
-  for (const client::Effect& effect : client.presentation()->effects)
+  for (const client::Effect& effect : presentation->effects)
     if (effect.kind == "level") rows.push_back(row(fmt::format("{}|level|{}", name, effect.node), {}));
-  for (const client::SceneObject& object : client.objects()) {
-    const auto body = std::ranges::find(frame.bodies, object.index, &client::BodyPose::object);
-    const Pose& X_WB = body == frame.bodies.end() ? object.X_WB : body->X_WB;
+  for (const client::SceneObject& object : place.client().objects()) {
+    const auto body = std::ranges::find(place.frame().bodies, object.index, &client::BodyPose::object);
+    const Pose& X_WB = body == place.frame().bodies.end() ? object.X_WB : body->X_WB;
     std::vector<double> all = numbers(object.X_WB);
     if (object.movable) {
       std::ranges::copy(numbers(X_WB), std::back_inserter(all));
-      std::ranges::copy(seen_box(camera, library.model(object.mesh_uri, object.mesh_node).box_B, X_WB),
+      std::ranges::copy(seen_box(camera, place.library().model(object.mesh_uri, object.mesh_node).box_B, X_WB),
                         std::back_inserter(all));
     }
     rows.push_back(row(fmt::format("{}|{}|{}|{}", name, object.name, object.mesh_uri, object.mesh_node), all));
   }
-  EXPECT_TRUE(library.missing().empty()) << *library.missing().begin();
 }
 
 TEST(Places, AreSeenWhereTheyWere) {

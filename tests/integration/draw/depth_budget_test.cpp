@@ -1,14 +1,9 @@
 // How deep the places are for two eyes, vertex by vertex: what visitors see is comfortable on a screen that nobody measured.
 #include <algorithm>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "client-sdk/assets/mesh_files.hpp"
-#include "client-sdk/recording/recorded_client.hpp"
-#include "client-sdk/scene/scene_builder.hpp"
-#include "server/content/mesh_import.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/recorded_place.hpp"
 
 namespace mechane::draw {
 namespace {
@@ -47,28 +42,10 @@ DepthOfPlace depth_of(const picture::RenderScene& scene, const picture::SceneAss
 class DepthBudget : public testing::TestWithParam<const char*> {};
 
 TEST_P(DepthBudget, is_kept_at_each_moment_of_a_visit) {
-  const std::filesystem::path root = mechane::test::source_folder();
-  const std::string name = GetParam();
-  recording::RecordedClient client(
-      recording::FrameRecording::open_file(root / "tests/golden/scenes" / (name + ".frames")).value(), {});
-  assets::MeshFiles files(root / "scenarios" / name, nullptr);
-  scene::AssetLibrary library([&](const std::string& uri) -> Expected<content::ImportedScene> {
-    const auto file = files.find(uri);
-    if (!file) return tl::unexpected(file.error());
-    return content::import_mesh(*file);
-  });
-  scene::SceneBuilder builder(library, "en");
-  client.advance(TimePoint{});
-  builder.set_presentation(client.presentation());
-  builder.set_manifest(client.objects());
+  mechane::test::RecordedPlace place(GetParam());
   for (int second = 0; second < 4; ++second) {
-    client.advance(TimePoint{} + second * std::chrono::seconds(1));
-    client::Frame frame;
-    ASSERT_TRUE(client.newest_frame(frame));
-    const auto status = client.world_status();
-    picture::RenderScene scene = builder.build(&frame, &*status, client.state());
-    scene.camera = picture::for_screen(scene.camera, {}, nullptr, kAspect);
-    const DepthOfPlace depth = depth_of(scene, library.assets());
+    const picture::RenderScene scene = place.scene(second, kAspect);
+    const DepthOfPlace depth = depth_of(scene, place.assets());
     EXPECT_LE(depth.behind, picture::kMostParallaxBehind + 1e-4) << "moment " << second;
     EXPECT_LE(depth.before, picture::kMostParallaxBefore + 1e-4) << "moment " << second;
     EXPECT_GT(depth.behind + depth.before, 0.008) << "moment " << second << ": flat";

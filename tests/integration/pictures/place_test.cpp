@@ -8,15 +8,11 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "client-sdk/assets/mesh_files.hpp"
 #include "client-sdk/draw/gl_context.hpp"
 #include "client-sdk/draw/renderer.hpp"
-#include "client-sdk/recording/recorded_client.hpp"
-#include "client-sdk/scene/asset_library.hpp"
-#include "client-sdk/scene/scene_builder.hpp"
-#include "server/content/mesh_import.hpp"
 #include "tests/integration/pictures/reference_picture.hpp"
 #include "tests/support/picture_likeness.hpp"
+#include "tests/support/recorded_place.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace mechane::display {
@@ -47,46 +43,20 @@ test::Likeness likeness_to(const picture::ImageData& reference, const picture::I
   return test::likeness(reference, test::as_kept(drawn));
 }
 
-/// A place with its meshes and its recorded moments.
+/// A place whose words are not drawn: they have tests of their own, and would hide the machine in so small a picture.
 class Place {
  public:
-  explicit Place(const std::string& name)
-      : client_(recording::FrameRecording::open_file(kRoot / "tests/golden/scenes" / (name + ".frames")).value(), {}),
-        files_(kRoot / "scenarios" / name, nullptr),
-        library_([this](const std::string& uri) -> Expected<content::ImportedScene> {
-          const auto file = files_.find(uri);
-          if (!file) return tl::unexpected(file.error());
-          return content::import_mesh(*file);
-        }),
-        builder_(library_, "en") {}
-
+  explicit Place(const std::string& name) : place_(name) {}
   picture::RenderScene scene(std::size_t moment) {
-    const TimePoint now = TimePoint{} + moment * std::chrono::seconds(1);
-    if (moment == 0) client_.rewind();
-    if (!began_) client_.advance(TimePoint{});
-    client_.advance(now);
-    if (!std::exchange(began_, true)) {
-      builder_.set_presentation(client_.presentation());
-      builder_.set_manifest(client_.objects());
-      EXPECT_TRUE(library_.missing().empty()) << *library_.missing().begin();
-    }
-    client::Frame frame;
-    EXPECT_TRUE(client_.newest_frame(frame));  // nothing of the next moment's
-    const auto status = client_.world_status();
-    picture::RenderScene out = builder_.build(&frame, &*status, client_.state());
-    // Words have tests of their own, and would hide the machine in so small a picture.
+    picture::RenderScene out =
+        place_.scene(static_cast<int>(moment), static_cast<double>(kPicture.width) / kPicture.height);
     out.overlay = {};
-    out.camera = picture::for_screen(out.camera, {}, nullptr, static_cast<double>(kPicture.width) / kPicture.height);
     return out;
   }
-  [[nodiscard]] const picture::SceneAssets& assets() const { return library_.assets(); }
+  [[nodiscard]] const picture::SceneAssets& assets() const { return place_.assets(); }
 
  private:
-  recording::RecordedClient client_;
-  assets::MeshFiles files_;
-  scene::AssetLibrary library_;
-  scene::SceneBuilder builder_;
-  bool began_ = false;
+  mechane::test::RecordedPlace place_;
 };
 
 /// What was drawn, and what had been accepted before, one place a row: for eyes.
