@@ -25,7 +25,7 @@ enum class ParameterKind {
 /// joints before a dot, and quantities after "quantity.".
 enum class Reference { none, body, joint, agent, activity, quantity, machine, expression };
 
-/// A default of numbers that have none: where the key is not written, something else counts.
+/// The default_value of a number without a default: where its key is left out, something else counts.
 inline constexpr double kNoDefault = std::numeric_limits<double>::quiet_NaN();
 
 struct ParameterType {
@@ -41,7 +41,7 @@ struct ParameterType {
   Reference reference = Reference::none;  ///< of a text and of every one of `texts`
   std::string_view default_text = {};     ///< of numbers without a default of their own: what counts instead, in words
 
-  /// Of numbers: a default outside the limits, or none, is no value that authors could have written.
+  /// Of numbers: whether leaving the key out means `default_value`. A value outside the limits says that it does not.
   [[nodiscard]] constexpr bool has_default() const { return default_value >= min && default_value <= max; }
 };
 

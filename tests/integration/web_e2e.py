@@ -14,7 +14,7 @@ from page_visitor import PageVisitor
 CRANE = ROOT / "scenarios/pulley-crane/pulley-crane.x3d"
 SIZE = (480, 360)  # the processor draws
 HAND_PROGRAM = 41021  # the test has a network of its own
-# By touch, one activity of each exhibit whose good visit takes something (the village's signs are only touched); by a camera's hand, a crank.
+# By touch, one activity of each exhibit whose good visit takes something (not the village's signs); by a camera's hand, a crank.
 TOUR = ("archimedes-screw/use ktesibios-pump/use pulley-crane/use compound-pulley-crane/use catapult/use crossbow/use aiolos-sphere/use "
         "odometer/use camera").split()
 

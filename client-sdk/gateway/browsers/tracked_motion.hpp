@@ -10,8 +10,8 @@
 
 namespace mechane::gateway {
 
-/// A tracker overlooks a hand for some pictures now and then, a wireless network loses some, and a page that the processor draws is late;
-/// a hand that is gone for longer is a silent device, which lets go. It feels no force that could do harm meanwhile.
+/// A tracker overlooks a hand for some pictures now and then, a wireless network loses some, and a page that the processor draws is late.
+/// A hand that is gone for longer lets go. No device presses on the visitor's hand meanwhile.
 inline constexpr Duration kHandOverlooked = std::chrono::milliseconds(500);
 
 /// One hand of one visitor. The hand goes from where it was shown to what was seen last within the time between two pictures, so it is

@@ -37,7 +37,6 @@ async function sceneOf(place: string, objects: SceneObject[], views: Row[], leve
   vi.stubGlobal('self', globalThis);  // three looks there for what it decodes pictures with, which Node lacks: things are seen without
   vi.stubGlobal('fetch', (url: string) =>
     Promise.resolve(new Response(readFileSync(new URL(`scenarios/${place}/${url.replace('http://gateway/', '')}`, kRoot)))));
-  scene.set({ ...kNothingKnown, objects, presentation: presentation as never });
   await vi.waitFor(() => {
     scene.set({ ...kNothingKnown, objects, presentation: presentation as never });
     expect(scene.complete).toBe(true);

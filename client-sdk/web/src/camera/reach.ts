@@ -4,9 +4,9 @@
 import { Box3, Matrix4, Quaternion, Vector3 } from 'three';
 import type { Slope } from './landmarks';
 
-/** A hand moves so far from its middle to come past the edge of the work. */
+/** A hand that moves so far from its middle is past the edge of the work. */
 const kReach_m = 0.18;
-/** So much wider than the work is what a hand reaches. */
+/** What a hand reaches is so much wider than the work. */
 const kAround = 1.3;
 /** Small work does not make hands slower than they are. */
 const kLeastGain = 1;
@@ -63,15 +63,11 @@ function middleFor(p_C: Vector3, slope: Slope): Vector3 {
   return new Vector3(within(p_C.x, x), within(p_C.y, y), z);
 }
 
-/** By the view of a camera of three. `work` is not empty, and must not depend on where hands are: a picture that follows a hand would lead
- * it on and on. */
+/** By the view of a camera of three. `work` must not depend on where hands are: a picture that follows a hand would lead it on and on. */
 export function sightOf(matrixWorld: Matrix4, work: Box3): Sight {
   const R_WV = new Quaternion();
   matrixWorld.decompose(new Vector3(), R_WV, new Vector3());
-  const size = work.getSize(new Vector3());
-  const along = (x: number, y: number): number => {
-    const axis = new Vector3(x, y, 0).applyQuaternion(R_WV);
-    return Math.abs(axis.x) * size.x + Math.abs(axis.y) * size.y + Math.abs(axis.z) * size.z;
-  };
-  return { R_WV, p_WM: work.getCenter(new Vector3()), half_m: (kAround * Math.max(along(1, 0), along(0, 1))) / 2 };
+  const R_VW = new Matrix4().makeRotationFromQuaternion(R_WV.clone().invert());
+  const seen = work.clone().applyMatrix4(R_VW).getSize(new Vector3());
+  return { R_WV, p_WM: work.getCenter(new Vector3()), half_m: (kAround * Math.max(seen.x, seen.y)) / 2 };
 }

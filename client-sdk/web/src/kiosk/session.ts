@@ -240,7 +240,7 @@ export class KioskSession {
 
   /** What a hand before a camera reaches. */
   private sight(): Sight {
-    return sightOf(this.picture.camera.matrixWorld, this.picture.world.within);
+    return sightOf(this.picture.camera.matrixWorld, this.picture.world.stepWork());
   }
   private axleOf(object: number): { p: Vector3; d: Vector3 } | null {
     const joint = this.state.presentation?.affordances.find(

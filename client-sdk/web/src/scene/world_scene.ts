@@ -386,11 +386,11 @@ export class WorldScene {
       .map((p) => ({ object: p.object!.index, name: textIn(p.object!.title, language), X: p.group.matrix, box: p.model.box }));
   }
 
-  /** What can be worked on in this step, wherever hands are; never empty. */
-  get within(): Box3 {
+  /** What can be worked on in this step, wherever hands are. */
+  stepWork(): Box3 {
     const { presentation, world } = this.state ?? {};
     const { work } = workplace([], presentation?.affordances ?? [], world?.agents ?? [], this.standing);
-    return [work, this.interest].find((box) => !box.isEmpty()) ?? new Box3(new Vector3(), new Vector3());
+    return work.isEmpty() ? this.interest : work;
   }
   private standing = (object: number): Standing | null => {
     const placed = this.placedOf(object);

@@ -84,15 +84,13 @@ export async function placeToTake(page) {
 }
 
 /** Presses on it, and again, as a person does who sees that a hand has closed beside a thing that had moved. */
-export async function take(page, finger) {
-  const holds = (limit_s) => until(page, 'the hand holds it', (s) => s.state.pointer?.phase === 'holding', limit_s);
-  for (let tries = 0; tries < 2; ++tries) {
-    await finger.press(await placeToTake(page));
-    const held = await holds(10).catch(() => null);
-    if (held) return held;
+export async function take(page, finger, again = 2) {
+  await finger.press(await placeToTake(page));
+  const held = until(page, 'the hand holds it', (s) => s.state.pointer?.phase === 'holding', again > 0 ? 10 : 30);
+  if (again === 0) return held;
+  return held.catch(async () => {
     await finger.lift();
     await until(page, 'the hand has let go', (s) => (s.state.pointer?.phase ?? 'resting') === 'resting');
-  }
-  await finger.press(await placeToTake(page));
-  return holds(30);
+    return take(page, finger, again - 1);
+  });
 }

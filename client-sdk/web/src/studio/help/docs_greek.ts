@@ -338,7 +338,7 @@ export const kGreekAgentDocs: Record<string, string> = {
     'πάνω από τις άκρες του διχαλωτού σωλήνα: good (σωστή), reversed (ανάποδη) ή missing (λείπει)· μία λέξη, ή μία για κάθε κύλινδρο',
   'vessel and pipe up to the mouth: filled before the first water comes':
     'δοχείο και σωλήνας έως το στόμιο: γεμίζουν πριν έρθει το πρώτο νερό',
-  'in which the air under the cowl gives back two thirds of a pulse; 0: there is none':
+  'how long the air under the cowl takes to give back two thirds of a pulse; 0: no air':
     'σε πόσο χρόνο ο αέρας κάτω από το κάλυμμα δίνει πίσω τα δύο τρίτα ενός παλμού· 0: δεν υπάρχει',
   'of the water in the tub that the jet falls into': 'του νερού στον κάδο όπου πέφτει ο πίδακας',
   'true: the (first) piston rises when its joint goes to negative positions':
@@ -383,7 +383,7 @@ export const kGreekAgentDocs: Record<string, string> = {
   'position of the slider (from 0 in the direction of the draw) where its claw meets the string':
     'θέση του ολισθητή (από το 0, κατά τη φορά του τεντώματος) όπου το άγκιστρό του συναντά τη χορδή',
   'the quantity that opens the claw as it rises above 0.5': 'το μέγεθος που ανοίγει το άγκιστρο μόλις περάσει το 0,5',
-  'false: there is no string, or it is cut': 'αν όχι, δεν υπάρχει χορδή, ή είναι κομμένη',
+  'false: the bow has no string, or the string is cut': 'αν όχι, δεν υπάρχει χορδή, ή είναι κομμένη',
   'the bodies of its two limbs, which the string bends; origins where they leave its middle':
     'τα σώματα των δύο βραχιόνων του, που τους λυγίζει η χορδή· με σημείο αρχής εκεί όπου φεύγουν από τη μέση του τόξου',
   'the bodies of the string\'s two halves, in the same order; origins at the limbs\' tips':

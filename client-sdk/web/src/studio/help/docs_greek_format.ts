@@ -35,7 +35,8 @@ export const kGreekFormatDocs: Record<string, string> = {
   'sets named as the steps': 'τα βήματα, το καθένα με το όνομά του',
   'one thing to do': 'ένα πράγμα που κάνει ο επισκέπτης',
   'agents to switch on; before, in every activity, they are off': 'δράσεις που ανοίγουν· πριν είναι κλειστές',
-  'agents to switch off; a snap that is off leaves what it has placed fixed': 'δράσεις που κλείνουν· όταν κλείνει μια έλξη στη θέση, ό,τι τοποθέτησε μένει ακίνητο',
+  'agents to switch off; a snap that is off leaves what it has placed fixed':
+    'δράσεις που κλείνουν· όταν κλείνει μια έλξη στη θέση, ό,τι τοποθέτησε μένει ακίνητο',
   'the step ends after this time, whatever happens; 0: never': 'το βήμα τελειώνει ύστερα από τόσο χρόνο· 0: ποτέ',
   'the step that follows then; end: the activity is done': 'το βήμα που ακολουθεί τότε· end: τέλος της δραστηριότητας',
   'the DEF of the Viewpoint from which a close-up is shown in a corner of the picture':
